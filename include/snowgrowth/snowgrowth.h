@@ -1,0 +1,16 @@
+/**
+ * @file snowgrowth.h
+ * @brief Everything: include this one.
+ */
+#ifndef SNOWGROWTH_SNOWGROWTH_H
+#define SNOWGROWTH_SNOWGROWTH_H
+
+#include <snowgrowth/export.h>
+#include <snowgrowth/grid.h>
+#include <snowgrowth/options.h>
+#include <snowgrowth/reiter.h>
+#include <snowgrowth/render.h>
+#include <snowgrowth/status.h>
+#include <snowgrowth/version.h>
+
+#endif

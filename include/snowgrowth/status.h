@@ -1,0 +1,124 @@
+/**
+ * @file status.h
+ * @brief What a call answers.
+ *
+ * Every call that can fail returns a ::snow_status. Zero is success. Results
+ * travel through out-pointers, which a failing call leaves untouched. The
+ * values are grouped in families and are never renumbered or reused.
+ */
+#ifndef SNOWGROWTH_STATUS_H
+#define SNOWGROWTH_STATUS_H
+
+#include <snowgrowth/export.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/** @brief The answer of a fallible call. */
+typedef enum snow_status {
+    /** The call did what it promises. */
+    SNOW_OK = 0,
+
+    /* 1xx: the call itself is wrong; nothing was changed. */
+
+    /** A pointer that must not be NULL is NULL. */
+    SNOW_ERROR_NULL = 100,
+    /** A struct was not initialised: its struct_size is zero or too small. */
+    SNOW_ERROR_STRUCT_SIZE = 101,
+    /** A struct of a newer version sets a member that this library does not know. */
+    SNOW_ERROR_STRUCT_TAIL = 102,
+    /** An enumeration has a value that this library does not know. */
+    SNOW_ERROR_ENUM = 103,
+    /** The caller's buffer is too small; the needed size was written where the call says so. */
+    SNOW_ERROR_BUFFER = 104,
+    /** A rectangle has a negative extent or reaches beyond the range of coordinates. */
+    SNOW_ERROR_RECTANGLE = 105,
+    /** A number is NaN or infinite. */
+    SNOW_ERROR_NOT_FINITE = 106,
+    /** A count, limit or size is negative or out of its stated range. */
+    SNOW_ERROR_RANGE = 107,
+    /** The grid's model has no such field or operation. */
+    SNOW_ERROR_UNSUPPORTED = 108,
+    /** What was asked for is not recorded; ask for it when the grid is created. */
+    SNOW_ERROR_NOT_RECORDED = 109,
+    /** A progress callback tried to change the grid that calls it. */
+    SNOW_ERROR_BUSY = 110,
+    /** The cell lies outside the grid's domain. */
+    SNOW_ERROR_OUTSIDE = 111,
+
+    /* 2xx: resources. */
+
+    /** The allocator returned NULL. */
+    SNOW_ERROR_NO_MEMORY = 200,
+    /** The grid is too large: a size overflows, or it has 2^32 cells or more. */
+    SNOW_ERROR_TOO_LARGE = 201,
+    /** The caller's memory limit would be passed. */
+    SNOW_ERROR_MEMORY_LIMIT = 202,
+    /** A thread could not be started. */
+    SNOW_ERROR_THREADS = 203,
+    /** The forced instruction set is not available on this processor or in this build. */
+    SNOW_ERROR_ISA = 204,
+
+    /* 3xx: saved grids. */
+
+    /** The data do not begin like a saved grid. */
+    SNOW_ERROR_FORMAT = 300,
+    /** The data were written by a later version of the format. */
+    SNOW_ERROR_FORMAT_VERSION = 301,
+    /** The data end too early. */
+    SNOW_ERROR_TRUNCATED = 302,
+    /** The checksum or the contents of the data are wrong. */
+    SNOW_ERROR_DAMAGED = 303,
+    /** The caller's writer failed. */
+    SNOW_ERROR_WRITE = 304,
+    /** The caller's reader failed. */
+    SNOW_ERROR_READ = 305,
+
+    /* 4xx: the course of a run. */
+
+    /** The vapour field grows without bound; the grid stands at its last sound step. */
+    SNOW_ERROR_UNSTABLE = 400,
+    /** The step count has reached its greatest value. */
+    SNOW_ERROR_STEP_LIMIT = 401,
+
+    /* 1xxx: Reiter's model. */
+
+    /** The background is not in 0 <= background < 1. */
+    SNOW_ERROR_REITER_BACKGROUND = 1000,
+    /** The addition is not in 0 <= addition <= 1. */
+    SNOW_ERROR_REITER_ADDITION = 1001,
+    /** The diffusion is not in 0 <= diffusion <= 8/3 (<= 4 with allow_unstable). */
+    SNOW_ERROR_REITER_DIFFUSION = 1002,
+    /** The radius of the disc or hexagon is not in 1 <= radius <= 2^20. */
+    SNOW_ERROR_REITER_RADIUS = 1003,
+    /** The sides of the rectangle are not in 1 <= side <= 2^21. */
+    SNOW_ERROR_REITER_SIDES = 1004,
+    /** A seed lies outside the domain. */
+    SNOW_ERROR_REITER_SEED = 1005,
+    /** The side of the random cluster is not in 0 <= side <= 1024, or seeds are given as well. */
+    SNOW_ERROR_REITER_CLUSTER = 1006,
+    /** The noise is negative, or takes the background out of 0 <= background < 1. */
+    SNOW_ERROR_REITER_NOISE = 1007,
+    /** The rim rule does not fit the domain. */
+    SNOW_ERROR_REITER_RIM = 1008,
+    /** A background of zero cannot be rescaled to another one. */
+    SNOW_ERROR_REITER_RESCALE = 1009,
+    /** A value of vapour that a caller set is not in 0 <= vapour < 1. */
+    SNOW_ERROR_REITER_VAPOUR = 1010,
+    /** No preset has this name. */
+    SNOW_ERROR_REITER_PRESET = 1011
+} snow_status;
+
+/**
+ * @brief One line of English that says what a status means.
+ * @param status any value, known or not.
+ * @return A constant string that the library owns; never NULL.
+ */
+SNOW_API const char *snow_strerror(snow_status status);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

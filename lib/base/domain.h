@@ -1,0 +1,60 @@
+/* A set of cells without holes: for each row r one run first <= q < end. The
+   cells are numbered without gaps, row by row. */
+#ifndef SNOW_BASE_DOMAIN_H
+#define SNOW_BASE_DOMAIN_H
+
+#include "base/heap.h"
+
+#include <snowgrowth/grid.h>
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+typedef struct snow_run_of_cells {
+    int32_t first;
+    int32_t end;
+    size_t number; /* of the cell `first` */
+} snow_run_of_cells;
+
+typedef struct snow_domain {
+    int32_t top;  /* the first row */
+    int32_t rows; /* at least 1 */
+    size_t cells;
+    snow_rect bounds;
+    snow_run_of_cells *run; /* run[r - top] */
+} snow_domain;
+
+/* Each allocates the runs; on failure nothing is left allocated. */
+snow_status snow_domain_disc(snow_domain *domain, snow_heap *heap, int32_t radius);
+snow_status snow_domain_hexagon(snow_domain *domain, snow_heap *heap, int32_t radius);
+snow_status snow_domain_rectangle(snow_domain *domain, snow_heap *heap, int32_t width, int32_t height);
+/* The interior and the cells next to it, each row one run, two rows more. */
+snow_status snow_domain_hull(snow_domain *hull, snow_heap *heap, const snow_domain *interior);
+void snow_domain_end(snow_domain *domain, snow_heap *heap);
+
+/* How many interior cells each would have, without building it. */
+uint64_t snow_domain_disc_cells(int32_t radius);
+uint64_t snow_domain_hexagon_cells(int32_t radius);
+
+static inline const snow_run_of_cells *snow_domain_row(const snow_domain *domain, int64_t r)
+{
+    static const snow_run_of_cells empty = {0, 0, 0};
+    int64_t row = r - domain->top;
+    return row >= 0 && row < domain->rows ? &domain->run[row] : &empty;
+}
+
+static inline bool snow_domain_has(const snow_domain *domain, int64_t q, int64_t r)
+{
+    const snow_run_of_cells *run = snow_domain_row(domain, r);
+    return q >= run->first && q < run->end;
+}
+
+/* The number of a cell of the domain. */
+static inline size_t snow_domain_number(const snow_domain *domain, int32_t q, int32_t r)
+{
+    const snow_run_of_cells *run = &domain->run[r - domain->top];
+    return run->number + (size_t)(q - run->first);
+}
+
+#endif

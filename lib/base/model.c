@@ -1,0 +1,72 @@
+#include "base/model.h"
+
+#include "base/hexagon.h"
+#include "base/options.h"
+
+snow_status snow_grid_new(const snow_model_operations *operations, const snow_options *options, snow_grid **result)
+{
+    snow_options settled;
+    snow_status status = snow_options_settle(options, &settled);
+    if (status != SNOW_OK)
+        return status;
+    snow_heap heap;
+    snow_heap_start(&heap, &settled);
+    snow_grid *grid = snow_heap_get(&heap, 1, sizeof *grid);
+    if (grid == NULL)
+        return heap.refusal;
+    grid->operations = operations;
+    grid->heap = heap;
+    grid->options = settled;
+    snow_census_start(&grid->census);
+    if (settled.threads > 1 && settled.parallel_for == NULL)
+        status = snow_team_start(&grid->team, &grid->heap, settled.threads);
+    if (status != SNOW_OK) {
+        snow_grid_end(grid);
+        return status;
+    }
+    *result = grid;
+    return SNOW_OK;
+}
+
+void snow_grid_end(snow_grid *grid)
+{
+    if (grid->state != NULL)
+        grid->operations->destroy(grid);
+    snow_team_end(grid->team, &grid->heap);
+    snow_domain_end(&grid->domain, &grid->heap);
+    snow_heap heap = grid->heap; /* outlives the block that it stands in */
+    snow_heap_put(&heap, grid);
+}
+
+void snow_grid_for(const snow_grid *grid, size_t count, snow_task task, void *argument)
+{
+    if (grid->options.parallel_for != NULL && count > 1)
+        grid->options.parallel_for(grid->options.parallel_context, count, task, argument);
+    else if (grid->team != NULL)
+        snow_team_for(grid->team, count, task, argument);
+    else
+        for (size_t i = 0; i < count; i++)
+            task(argument, i);
+}
+
+void snow_census_start(snow_census *census)
+{
+    *census = (snow_census){
+        .tip_square = -1,
+        .least_q = INT32_MAX,
+        .greatest_q = INT32_MIN,
+        .least_r = INT32_MAX,
+        .greatest_r = INT32_MIN,
+    };
+}
+
+void snow_census_add(snow_census *census, int32_t q, int32_t r)
+{
+    int64_t square = snow_hexagon_square(q, r);
+    census->frozen++;
+    census->tip_square = square > census->tip_square ? square : census->tip_square;
+    census->least_q = q < census->least_q ? q : census->least_q;
+    census->greatest_q = q > census->greatest_q ? q : census->greatest_q;
+    census->least_r = r < census->least_r ? r : census->least_r;
+    census->greatest_r = r > census->greatest_r ? r : census->greatest_r;
+}

@@ -1,0 +1,75 @@
+/* What a grid is to the library: a model's operations and its state. */
+#ifndef SNOW_BASE_MODEL_H
+#define SNOW_BASE_MODEL_H
+
+#include "base/bytes.h"
+#include "base/domain.h"
+#include "base/heap.h"
+#include "base/parallel.h"
+
+#include <snowgrowth/grid.h>
+
+#include <stdbool.h>
+#include <stdint.h>
+
+/* What every model keeps of its frozen cells as they freeze. */
+typedef struct snow_census {
+    int64_t steps;
+    uint64_t frozen;
+    int64_t tip_square; /* greatest squared distance from the origin; −1: nothing frozen */
+    int32_t least_q, greatest_q, least_r, greatest_r;
+    bool rim;   /* ice is within reach of the rim */
+    bool still; /* no cell can ever freeze again; looked for in step 1 and in each 64th */
+} snow_census;
+
+/* Whether `still` is looked for in the step that leads to this step count. */
+static inline bool snow_census_looks(int64_t steps)
+{
+    return steps == 1 || steps % 64 == 0;
+}
+
+void snow_census_start(snow_census *census);
+
+/* Counts a cell that froze; the model itself sets `rim` and `still`. */
+void snow_census_add(snow_census *census, int32_t q, int32_t r);
+
+/* The operations of a model. Arguments are checked before they are called:
+   pointers are not NULL, enumerations known, rectangles in range. Fields are
+   read and written a run of cells at a time. */
+typedef struct snow_model_operations {
+    snow_model model;
+    const char *name;
+
+    /* Takes one step. On failure the grid stands before the step. */
+    snow_status (*step)(snow_grid *grid);
+    /* OK, UNSUPPORTED or NOT_RECORDED. */
+    snow_status (*can_read)(const snow_grid *grid, snow_field field);
+    /* count values of row r from column q on; any cells. */
+    void (*read)(const snow_grid *grid, snow_field field, int64_t q, int64_t r, size_t count, double *values);
+    /* All or nothing. */
+    snow_status (*set)(snow_grid *grid, snow_field field, const snow_rect *rect, const double *values);
+    void (*save)(const snow_grid *grid, snow_sink *sink);
+    /* Makes a grid from what save wrote. */
+    snow_status (*load)(snow_source *source, const snow_options *options, snow_grid **grid);
+    void (*destroy)(snow_grid *grid);
+} snow_model_operations;
+
+struct snow_grid {
+    const snow_model_operations *operations;
+    void *state; /* the model's own */
+    snow_heap heap;
+    snow_options options; /* settled */
+    snow_team *team;      /* NULL: one thread, or the caller's loop */
+    snow_domain domain;
+    snow_census census;
+    bool busy; /* a progress callback is running */
+};
+
+/* A grid with settled options and its team, but no domain and no state yet. */
+snow_status snow_grid_new(const snow_model_operations *operations, const snow_options *options, snow_grid **grid);
+void snow_grid_end(snow_grid *grid);
+
+/* Runs count tasks on the grid's threads, or the caller's. */
+void snow_grid_for(const snow_grid *grid, size_t count, snow_task task, void *argument);
+
+#endif

@@ -1,0 +1,64 @@
+#include <snowgrowth/grid.h>
+#include <snowgrowth/status.h>
+
+const char *snow_strerror(snow_status status)
+{
+    switch (status) {
+    case SNOW_OK: return "no error";
+    case SNOW_ERROR_NULL: return "a pointer that must not be NULL is NULL";
+    case SNOW_ERROR_STRUCT_SIZE: return "a struct was not initialised by its init function";
+    case SNOW_ERROR_STRUCT_TAIL: return "a struct sets a member that this version of the library does not know";
+    case SNOW_ERROR_ENUM: return "an enumeration has a value that this library does not know";
+    case SNOW_ERROR_BUFFER: return "the buffer does not have the needed size";
+    case SNOW_ERROR_RECTANGLE: return "the rectangle has a negative extent or leaves the range of coordinates";
+    case SNOW_ERROR_NOT_FINITE: return "a number is not finite";
+    case SNOW_ERROR_RANGE: return "a count, limit, flag or size is out of range";
+    case SNOW_ERROR_UNSUPPORTED: return "the grid's model has no such field or operation";
+    case SNOW_ERROR_NOT_RECORDED: return "freeze steps are not recorded by this grid";
+    case SNOW_ERROR_BUSY: return "a progress callback may not change the grid that calls it";
+    case SNOW_ERROR_OUTSIDE: return "the cell lies outside the domain";
+    case SNOW_ERROR_NO_MEMORY: return "out of memory";
+    case SNOW_ERROR_TOO_LARGE: return "the grid is too large";
+    case SNOW_ERROR_MEMORY_LIMIT: return "the memory limit would be passed";
+    case SNOW_ERROR_THREADS: return "a thread could not be started";
+    case SNOW_ERROR_ISA: return "the instruction set is not available";
+    case SNOW_ERROR_FORMAT: return "the data are not a saved grid";
+    case SNOW_ERROR_FORMAT_VERSION: return "the grid was saved by a later version of the library";
+    case SNOW_ERROR_TRUNCATED: return "the saved grid is incomplete";
+    case SNOW_ERROR_DAMAGED: return "the saved grid is damaged";
+    case SNOW_ERROR_WRITE: return "writing failed";
+    case SNOW_ERROR_READ: return "reading failed";
+    case SNOW_ERROR_UNSTABLE: return "the vapour grows without bound: the diffusion is too great";
+    case SNOW_ERROR_STEP_LIMIT: return "the step count has reached its greatest value";
+    case SNOW_ERROR_REITER_BACKGROUND: return "the background must be at least 0 and less than 1";
+    case SNOW_ERROR_REITER_ADDITION: return "the addition must be between 0 and 1";
+    case SNOW_ERROR_REITER_DIFFUSION:
+        return "the diffusion must be between 0 and 8/3, or 4 where unstable growth is allowed";
+    case SNOW_ERROR_REITER_RADIUS: return "the radius must be between 1 and 1048576";
+    case SNOW_ERROR_REITER_SIDES: return "the sides of the rectangle must be between 1 and 2097152";
+    case SNOW_ERROR_REITER_SEED: return "a seed lies outside the domain";
+    case SNOW_ERROR_REITER_CLUSTER: return "the random cluster must have a side from 0 to 1024 and no seeds beside it";
+    case SNOW_ERROR_REITER_NOISE: return "the noise must keep the start between 0 and 1";
+    case SNOW_ERROR_REITER_RIM: return "the rim rule does not fit the domain";
+    case SNOW_ERROR_REITER_RESCALE: return "a background of 0 cannot be rescaled";
+    case SNOW_ERROR_REITER_VAPOUR: return "vapour must be at least 0 and less than 1";
+    case SNOW_ERROR_REITER_PRESET: return "there is no preset of this name";
+    }
+    return "unknown status";
+}
+
+const char *snow_stop_name(snow_stop_reason reason)
+{
+    switch (reason) {
+    case SNOW_STOP_NONE: return "none";
+    case SNOW_STOP_STEPS: return "steps";
+    case SNOW_STOP_RIM: return "rim";
+    case SNOW_STOP_RADIUS: return "radius";
+    case SNOW_STOP_FROZEN: return "frozen";
+    case SNOW_STOP_STILL: return "still";
+    case SNOW_STOP_TIME: return "time";
+    case SNOW_STOP_CANCELLED: return "cancelled";
+    case SNOW_STOP_UNSTABLE: return "unstable";
+    }
+    return "unknown";
+}

@@ -1,0 +1,82 @@
+#include "base/floating.h"
+#include "base/model.h"
+
+static bool is_field(snow_field field)
+{
+    return field >= SNOW_FIELD_VALUE && field <= SNOW_FIELD_BACKGROUND;
+}
+
+static bool is_sound(const snow_rect *rect)
+{
+    return rect->width >= 0 && rect->height >= 0 && (int64_t)rect->q + rect->width <= (int64_t)INT32_MAX + 1 &&
+           (int64_t)rect->r + rect->height <= (int64_t)INT32_MAX + 1;
+}
+
+static snow_status can_read(const snow_grid *grid, snow_field field)
+{
+    return is_field(field) ? grid->operations->can_read(grid, field) : SNOW_ERROR_ENUM;
+}
+
+snow_status snow_cell_value(const snow_grid *grid, snow_field field, int32_t q, int32_t r, double *value)
+{
+    if (grid == NULL || value == NULL)
+        return SNOW_ERROR_NULL;
+    snow_status status = can_read(grid, field);
+    if (status == SNOW_OK)
+        grid->operations->read(grid, field, q, r, 1, value);
+    return status;
+}
+
+/* On 32-bit machines a rectangle can be larger than memory. */
+static bool count_cells(const snow_rect *rect, size_t *count)
+{
+    uint64_t cells = (uint64_t)rect->width * (uint64_t)rect->height;
+    *count = (size_t)cells;
+    return cells <= SIZE_MAX / sizeof(double);
+}
+
+snow_status snow_field_copy(const snow_grid *grid, snow_field field, const snow_rect *rect, double *values,
+                            size_t capacity, size_t *count)
+{
+    if (grid == NULL || (values == NULL && count == NULL))
+        return SNOW_ERROR_NULL;
+    snow_status status = can_read(grid, field);
+    if (status != SNOW_OK)
+        return status;
+    rect = rect != NULL ? rect : &grid->domain.bounds;
+    size_t cells;
+    if (!is_sound(rect) || !count_cells(rect, &cells))
+        return SNOW_ERROR_RECTANGLE;
+    if (count != NULL)
+        *count = cells;
+    if (values == NULL)
+        return SNOW_OK;
+    if (capacity < cells)
+        return SNOW_ERROR_BUFFER;
+    size_t width = (size_t)rect->width;
+    for (int32_t row = 0; row < rect->height && width > 0; row++)
+        grid->operations->read(grid, field, rect->q, (int64_t)rect->r + row, width, values + (size_t)row * width);
+    return SNOW_OK;
+}
+
+snow_status snow_field_set(snow_grid *grid, snow_field field, const snow_rect *rect, const double *values,
+                           size_t count)
+{
+    if (grid == NULL || values == NULL)
+        return SNOW_ERROR_NULL;
+    if (!is_field(field))
+        return SNOW_ERROR_ENUM;
+    if (grid->busy)
+        return SNOW_ERROR_BUSY;
+    rect = rect != NULL ? rect : &grid->domain.bounds;
+    size_t cells;
+    if (!is_sound(rect) || !count_cells(rect, &cells))
+        return SNOW_ERROR_RECTANGLE;
+    if (count != cells)
+        return SNOW_ERROR_BUFFER;
+    snow_floating floating;
+    snow_floating_enter(&floating);
+    snow_status status = grid->operations->set(grid, field, rect, values);
+    snow_floating_leave(&floating);
+    return status;
+}

@@ -1,0 +1,79 @@
+#include "base/model.h"
+
+#include <math.h>
+
+snow_status snow_model_of(const snow_grid *grid, snow_model *model)
+{
+    if (grid == NULL || model == NULL)
+        return SNOW_ERROR_NULL;
+    *model = grid->operations->model;
+    return SNOW_OK;
+}
+
+snow_status snow_steps(const snow_grid *grid, int64_t *steps)
+{
+    if (grid == NULL || steps == NULL)
+        return SNOW_ERROR_NULL;
+    *steps = grid->census.steps;
+    return SNOW_OK;
+}
+
+snow_status snow_frozen(const snow_grid *grid, uint64_t *cells)
+{
+    if (grid == NULL || cells == NULL)
+        return SNOW_ERROR_NULL;
+    *cells = grid->census.frozen;
+    return SNOW_OK;
+}
+
+snow_status snow_tip_radius(const snow_grid *grid, double *radius)
+{
+    if (grid == NULL || radius == NULL)
+        return SNOW_ERROR_NULL;
+    *radius = grid->census.tip_square > 0 ? sqrt((double)grid->census.tip_square) : 0;
+    return SNOW_OK;
+}
+
+snow_status snow_frozen_bounds(const snow_grid *grid, snow_rect *bounds)
+{
+    if (grid == NULL || bounds == NULL)
+        return SNOW_ERROR_NULL;
+    const snow_census *census = &grid->census;
+    *bounds = (snow_rect){0, 0, 0, 0};
+    if (census->frozen > 0)
+        *bounds = (snow_rect){census->least_q, census->least_r, census->greatest_q - census->least_q + 1,
+                              census->greatest_r - census->least_r + 1};
+    return SNOW_OK;
+}
+
+snow_status snow_domain_bounds(const snow_grid *grid, snow_rect *bounds)
+{
+    if (grid == NULL || bounds == NULL)
+        return SNOW_ERROR_NULL;
+    *bounds = grid->domain.bounds;
+    return SNOW_OK;
+}
+
+snow_status snow_domain_cells(const snow_grid *grid, uint64_t *cells)
+{
+    if (grid == NULL || cells == NULL)
+        return SNOW_ERROR_NULL;
+    *cells = grid->domain.cells;
+    return SNOW_OK;
+}
+
+snow_status snow_memory(const snow_grid *grid, uint64_t *bytes)
+{
+    if (grid == NULL || bytes == NULL)
+        return SNOW_ERROR_NULL;
+    *bytes = grid->heap.used;
+    return SNOW_OK;
+}
+
+snow_status snow_isa_of(const snow_grid *grid, snow_isa *isa)
+{
+    if (grid == NULL || isa == NULL)
+        return SNOW_ERROR_NULL;
+    *isa = grid->options.isa;
+    return SNOW_OK;
+}

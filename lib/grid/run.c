@@ -1,0 +1,180 @@
+#define _POSIX_C_SOURCE 200809L
+#include "base/floating.h"
+#include "base/model.h"
+#include "base/structs.h"
+
+#include <math.h>
+#include <time.h>
+
+static const int64_t greatest_step = INT64_C(1) << 62;
+
+static const snow_stop stop_defaults = {
+    .struct_size = sizeof(snow_stop),
+    .max_steps = 10000,
+    .rim = 1,
+    .still = 1,
+    .progress_steps = 100,
+};
+
+void snow_stop_init(snow_stop *stop, size_t struct_size)
+{
+    snow_struct_init(stop, struct_size, &stop_defaults, sizeof stop_defaults);
+}
+
+void snow_summary_init(snow_summary *summary, size_t struct_size)
+{
+    static const snow_summary empty = {.struct_size = sizeof empty};
+    snow_struct_init(summary, struct_size, &empty, sizeof empty);
+}
+
+void snow_destroy(snow_grid *grid)
+{
+    if (grid != NULL)
+        snow_grid_end(grid);
+}
+
+static snow_status take_step(snow_grid *grid)
+{
+    if (grid->census.steps >= greatest_step)
+        return SNOW_ERROR_STEP_LIMIT;
+    return grid->operations->step(grid);
+}
+
+snow_status snow_step(snow_grid *grid, int64_t steps)
+{
+    if (grid == NULL)
+        return SNOW_ERROR_NULL;
+    if (steps < 0)
+        return SNOW_ERROR_RANGE;
+    if (grid->busy)
+        return SNOW_ERROR_BUSY;
+    snow_floating floating;
+    snow_floating_enter(&floating);
+    snow_status status = SNOW_OK;
+    for (; steps > 0 && status == SNOW_OK; steps--)
+        status = take_step(grid);
+    snow_floating_leave(&floating);
+    return status;
+}
+
+static double now(void)
+{
+    struct timespec time;
+    clock_gettime(CLOCK_MONOTONIC, &time);
+    return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
+}
+
+static double tip_radius(const snow_grid *grid)
+{
+    return grid->census.tip_square > 0 ? sqrt((double)grid->census.tip_square) : 0;
+}
+
+static snow_summary summarise(const snow_grid *grid, snow_stop_reason reason, double started)
+{
+    return (snow_summary){
+        .struct_size = sizeof(snow_summary),
+        .reason = reason,
+        .steps = grid->census.steps,
+        .frozen = grid->census.frozen,
+        .tip_radius = tip_radius(grid),
+        .seconds = now() - started,
+    };
+}
+
+/* The conditions that depend on the crystal alone. */
+static snow_stop_reason crystal_stops(const snow_grid *grid, const snow_stop *stop)
+{
+    const snow_census *census = &grid->census;
+    if (stop->rim && census->rim)
+        return SNOW_STOP_RIM;
+    if (stop->tip_radius > 0 && tip_radius(grid) >= stop->tip_radius)
+        return SNOW_STOP_RADIUS;
+    if (stop->frozen > 0 && census->frozen >= stop->frozen)
+        return SNOW_STOP_FROZEN;
+    if (stop->still && census->still)
+        return SNOW_STOP_STILL;
+    if (stop->max_steps >= 0 && census->steps >= stop->max_steps)
+        return SNOW_STOP_STEPS;
+    return SNOW_STOP_NONE;
+}
+
+static bool is_cancelled(snow_grid *grid, const snow_stop *stop, double started)
+{
+    if (stop->progress == NULL || grid->census.steps % stop->progress_steps != 0)
+        return false;
+    snow_summary summary = summarise(grid, SNOW_STOP_NONE, started);
+    grid->busy = true;
+    int answer = stop->progress(stop->progress_context, grid, &summary);
+    grid->busy = false;
+    return answer != 0;
+}
+
+static snow_status run(snow_grid *grid, const snow_stop *stop, double started, snow_stop_reason *reason)
+{
+    for (*reason = crystal_stops(grid, stop); *reason == SNOW_STOP_NONE;) {
+        snow_floating floating;
+        snow_floating_enter(&floating);
+        snow_status status = take_step(grid);
+        snow_floating_leave(&floating);
+        if (status != SNOW_OK) {
+            *reason = SNOW_STOP_UNSTABLE;
+            return status;
+        }
+        *reason = crystal_stops(grid, stop);
+        if (is_cancelled(grid, stop, started) && *reason == SNOW_STOP_NONE)
+            *reason = SNOW_STOP_CANCELLED;
+        if (*reason == SNOW_STOP_NONE && stop->seconds > 0 && now() - started >= stop->seconds)
+            *reason = SNOW_STOP_TIME;
+    }
+    return SNOW_OK;
+}
+
+static bool is_flag(int32_t value)
+{
+    return value == 0 || value == 1;
+}
+
+static snow_status check_stop(const snow_stop *stop)
+{
+    if (!isfinite(stop->tip_radius) || !isfinite(stop->seconds))
+        return SNOW_ERROR_NOT_FINITE;
+    if (stop->max_steps < -1 || !is_flag(stop->rim) || !is_flag(stop->still) || stop->tip_radius < 0 ||
+        stop->seconds < 0 || stop->progress_steps < 1)
+        return SNOW_ERROR_RANGE;
+    return SNOW_OK;
+}
+
+static snow_status read_stop(const snow_stop *caller, snow_stop *stop)
+{
+    *stop = stop_defaults;
+    if (caller == NULL)
+        return SNOW_OK;
+    snow_status status = snow_struct_check(caller, sizeof *stop, sizeof *stop);
+    if (status != SNOW_OK)
+        return status;
+    snow_struct_read(stop, sizeof *stop, caller);
+    return check_stop(stop);
+}
+
+snow_status snow_run(snow_grid *grid, const snow_stop *caller_stop, snow_summary *caller_summary)
+{
+    if (grid == NULL)
+        return SNOW_ERROR_NULL;
+    if (grid->busy)
+        return SNOW_ERROR_BUSY;
+    snow_stop stop;
+    snow_status status = read_stop(caller_stop, &stop);
+    if (status == SNOW_OK && caller_summary != NULL)
+        status = snow_struct_check(caller_summary, sizeof(snow_summary), sizeof(snow_summary));
+    if (status != SNOW_OK)
+        return status;
+
+    double started = now();
+    snow_stop_reason reason;
+    status = run(grid, &stop, started, &reason);
+    if (caller_summary != NULL && (status == SNOW_OK || status == SNOW_ERROR_UNSTABLE)) {
+        snow_summary summary = summarise(grid, reason, started);
+        snow_struct_write(caller_summary, &summary, sizeof summary);
+    }
+    return status;
+}

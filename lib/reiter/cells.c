@@ -1,0 +1,151 @@
+/* Whole-grid passes that every engine shares, through its get and put. */
+#include "base/hexagon.h"
+#include "reiter/model.h"
+
+/* The quantum stays far above the subnormal numbers. */
+static const double least_bound = 0x1p-64;
+
+enum { REACH = 2, REPORT_FRACTION = 35 };
+
+static bool is_near_rim(const snow_grid *grid, int32_t q, int32_t r)
+{
+    const snow_reiter_params *params = &reiter_of(grid)->params;
+    int64_t reach = params->radius - REACH;
+    int32_t row = r - grid->domain.top;
+    const snow_run_of_cells *run = &grid->domain.run[row];
+    switch (params->domain) {
+    case SNOW_REITER_DISC: return reach <= 0 || snow_hexagon_square(q, r) >= reach * reach;
+    case SNOW_REITER_HEXAGON: return snow_hexagon_distance(q, r) >= reach;
+    case SNOW_REITER_RECTANGLE: break;
+    }
+    if (params->rim == SNOW_REITER_RIM_ROW)
+        return row + 1 <= params->height / REPORT_FRACTION;
+    return row < REACH || row >= params->height - REACH || q < run->first + REACH || q >= run->end - REACH;
+}
+
+static void count(snow_grid *grid, int32_t q, int32_t r)
+{
+    snow_census_add(&grid->census, q, r);
+    grid->census.rim = grid->census.rim || is_near_rim(grid, q, r);
+}
+
+void snow_reiter_freeze(snow_grid *grid, int32_t q, int32_t r)
+{
+    reiter *model = reiter_of(grid);
+    count(grid, q, r);
+    if (model->freeze_step != NULL) {
+        int64_t step = grid->census.steps;
+        model->freeze_step[snow_domain_number(&model->hull, q, r)] =
+            step < REITER_NEVER ? (uint32_t)step : REITER_NEVER - 1;
+    }
+}
+
+void snow_reiter_recount(snow_grid *grid)
+{
+    const reiter *model = reiter_of(grid);
+    int64_t steps = grid->census.steps;
+    snow_census_start(&grid->census);
+    grid->census.steps = steps;
+    for (int32_t row = 0; row < grid->domain.rows; row++) {
+        const snow_run_of_cells *run = &grid->domain.run[row];
+        int32_t r = grid->domain.top + row;
+        for (int32_t q = run->first; q < run->end; q++)
+            if (model->engine->get(grid, q, r).frozen)
+                count(grid, q, r);
+    }
+}
+
+static bool is_frozen(const snow_grid *grid, int32_t q, int32_t r)
+{
+    return snow_domain_has(&grid->domain, q, r) && reiter_of(grid)->engine->get(grid, q, r).frozen;
+}
+
+/* Asked while cells are being put, when the engine does not know it yet. */
+static bool is_receptive(const snow_grid *grid, int32_t q, int32_t r)
+{
+    return snow_domain_has(&grid->domain, q, r) &&
+           (is_frozen(grid, q, r) || is_frozen(grid, q + 1, r) || is_frozen(grid, q - 1, r) ||
+            is_frozen(grid, q, r + 1) || is_frozen(grid, q, r - 1) || is_frozen(grid, q + 1, r - 1) ||
+            is_frozen(grid, q - 1, r + 1));
+}
+
+/* The greatest |vapour| of the cells that are not receptive, fixed ones too. */
+static double greatest_vapour(const snow_grid *grid)
+{
+    const reiter *model = reiter_of(grid);
+    const snow_domain *hull = &model->hull;
+    double greatest = 0;
+    for (int32_t row = 0; row < hull->rows; row++) {
+        for (int32_t q = hull->run[row].first; q < hull->run[row].end; q++) {
+            double vapour = fabs(model->engine->get(grid, q, hull->top + row).value);
+            if (vapour > greatest && !is_receptive(grid, q, hull->top + row))
+                greatest = vapour;
+        }
+    }
+    return greatest;
+}
+
+void snow_reiter_choose_bound(snow_grid *grid)
+{
+    reiter *model = reiter_of(grid);
+    double greatest = greatest_vapour(grid);
+    double bound = least_bound;
+    while (bound < greatest)
+        bound *= 2;
+    bound = bound < 1 ? bound : 1;
+    if (model->params.diffusion > SNOW_REITER_STABLE_DIFFUSION)
+        bound *= 1024;
+    else if (reiter_overshoots(model))
+        bound *= 4;
+    model->bound = bound;
+}
+
+bool snow_reiter_receptive_are_sound(const snow_grid *grid)
+{
+    const reiter *model = reiter_of(grid);
+    for (int32_t row = 0; row < grid->domain.rows; row++) {
+        const snow_run_of_cells *run = &grid->domain.run[row];
+        int32_t r = grid->domain.top + row;
+        for (int32_t q = run->first; q < run->end; q++)
+            if (model->engine->get(grid, q, r).receptive != is_receptive(grid, q, r))
+                return false;
+    }
+    return true;
+}
+
+/* value + low + addition · additions, to one rounding, or exactly in two
+   doubles where the engine keeps a low part. */
+static void merge(reiter_cell *cell, double addition, bool keeps_low)
+{
+    double gained = addition * cell->additions;
+    double sum = cell->value + gained;
+    if (keeps_low) {
+        double gained_low = fma(addition, cell->additions, -gained);
+        double part = sum - cell->value;
+        double sum_low = (cell->value - (sum - part)) + (gained - part);
+        double low = cell->low + (gained_low + sum_low);
+        cell->value = sum + low;
+        cell->low = low - (cell->value - sum);
+    } else {
+        cell->value = sum;
+    }
+    cell->additions = 0;
+}
+
+void snow_reiter_merge_additions(snow_grid *grid)
+{
+    const reiter *model = reiter_of(grid);
+    bool keeps_low = model->engine == &snow_reiter_quad;
+    for (int32_t row = 0; row < grid->domain.rows; row++) {
+        const snow_run_of_cells *run = &grid->domain.run[row];
+        int32_t r = grid->domain.top + row;
+        for (int32_t q = run->first; q < run->end; q++) {
+            reiter_cell cell = model->engine->get(grid, q, r);
+            if (cell.additions == 0)
+                continue;
+            merge(&cell, reiter_addition(model, snow_domain_number(&model->hull, q, r)), keeps_low);
+            model->engine->put(grid, q, r, &cell);
+        }
+    }
+    model->engine->settle(grid);
+}

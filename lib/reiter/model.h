@@ -1,0 +1,135 @@
+/* A grid of Reiter's model: what its files share. The paper and the decisions
+   behind the arithmetic are in snowgrowth/reiter.h and doc/reiter.md. */
+#ifndef SNOW_REITER_MODEL_H
+#define SNOW_REITER_MODEL_H
+
+#include "base/model.h"
+
+#include <snowgrowth/reiter.h>
+
+#include <math.h>
+
+extern const snow_model_operations snow_reiter_operations;
+
+/* A cell as the engines give and take it. */
+typedef struct reiter_cell {
+    double value;     /* its vapour; where receptive, what it had and collected, without additions */
+    double low;       /* what QUAD keeps beyond the double */
+    uint32_t additions; /* steps since it became receptive, or since they were last merged into value */
+    bool frozen;
+    bool receptive;
+} reiter_cell;
+
+/* What computes the steps. Cells are those of the hull: interior and fixed. */
+typedef struct reiter_engine {
+    snow_status (*create)(snow_grid *grid);
+    /* One step of the cells; tells newly frozen cells to snow_reiter_freeze().
+       On failure nothing has changed. */
+    snow_status (*step)(snow_grid *grid);
+    reiter_cell (*get)(const snow_grid *grid, int32_t q, int32_t r);
+    /* get then gives what was put; settle must follow before the next step. */
+    void (*put)(snow_grid *grid, int32_t q, int32_t r, const reiter_cell *cell);
+    /* Finds the receptive cells anew and rounds vapour to the quantum. */
+    void (*settle)(snow_grid *grid);
+    void (*destroy)(snow_grid *grid);
+} reiter_engine;
+
+extern const reiter_engine snow_reiter_rows;
+extern const reiter_engine snow_reiter_reference;
+extern const reiter_engine snow_reiter_quad;
+
+typedef struct reiter {
+    snow_reiter_params params; /* checked; pointers cleared after creation */
+    snow_domain hull;          /* the interior and the fixed cells round it */
+    double bound;              /* vapour beyond ±bound is unstable; a power of two */
+    double *addition_at;       /* for each cell of the hull; NULL: params.addition everywhere */
+    uint32_t *freeze_step;     /* for each cell of the hull; NULL: not recorded */
+    const reiter_engine *engine;
+    void *cells; /* the engine's own */
+} reiter;
+
+#define REITER_NEVER UINT32_MAX
+
+/* Additions are merged into the values whenever the step count is a multiple
+   of this, so that 32 bits are enough for their number. */
+#define REITER_MERGE_STEPS (INT64_C(1) << 31)
+
+static inline reiter *reiter_of(const snow_grid *grid)
+{
+    return grid->state;
+}
+
+static inline double reiter_threshold(void)
+{
+    return 1.0 - SNOW_REITER_SLACK;
+}
+
+static inline bool reiter_is_vapour(double value)
+{
+    return value >= 0 && value < reiter_threshold();
+}
+
+/* Adding and subtracting this rounds a smaller number to the quantum, 2^-50 times the bound. */
+static inline double reiter_rounder(const reiter *model)
+{
+    return model->bound * 0x1p-50 * 0x1.8p52;
+}
+
+static inline double reiter_round(double value, double rounder)
+{
+    return (value + rounder) - rounder;
+}
+
+/* A vapour as the grid holds it: a multiple of the quantum that is not ice. */
+static inline double reiter_settled(const reiter *model, double value)
+{
+    double rounded = reiter_round(value, reiter_rounder(model));
+    return rounded < reiter_threshold() ? rounded : reiter_threshold() - model->bound * 0x1p-50;
+}
+
+static inline double reiter_addition(const reiter *model, size_t hull_number)
+{
+    return model->addition_at != NULL ? model->addition_at[hull_number] : model->params.addition;
+}
+
+/* Reiter's u of a cell that the engine gave. */
+static inline double reiter_value(const reiter_cell *cell, double addition)
+{
+    return cell->low + cell->value + addition * cell->additions;
+}
+
+/* Whether values beyond [0, 1) can arise where no ice is near: only then are they looked for. */
+static inline bool reiter_overshoots(const reiter *model)
+{
+    return model->params.diffusion > 2;
+}
+
+/* params.c */
+snow_status snow_reiter_params_check(const snow_reiter_params *params);
+snow_status snow_reiter_conditions_check(double background, double addition, double diffusion, bool allow_unstable);
+
+/* scene.c: fills the engine with the start of the scene. */
+snow_status snow_reiter_scene(snow_grid *grid, const snow_reiter_params *params);
+
+/* create.c: a grid with its domain, engine and arrays, every cell empty. */
+snow_status snow_reiter_build(const snow_reiter_params *params, const snow_options *options, snow_grid **grid);
+
+/* cells.c */
+void snow_reiter_freeze(snow_grid *grid, int32_t q, int32_t r);
+/* Counts the frozen cells anew. */
+void snow_reiter_recount(snow_grid *grid);
+/* Chooses bound, and with it the quantum, from the greatest vapour; before settle. */
+void snow_reiter_choose_bound(snow_grid *grid);
+/* Whether every cell that is called receptive is, and no other; before settle. */
+bool snow_reiter_receptive_are_sound(const snow_grid *grid);
+/* Merges the additions of receptive cells into their values, exact to one rounding. */
+void snow_reiter_merge_additions(snow_grid *grid);
+
+/* fields.c, snapshot.c */
+snow_status snow_reiter_can_read(const snow_grid *grid, snow_field field);
+void snow_reiter_read(const snow_grid *grid, snow_field field, int64_t q, int64_t r, size_t count, double *values);
+snow_status snow_reiter_set(snow_grid *grid, snow_field field, const snow_rect *rect, const double *values);
+void snow_reiter_save(const snow_grid *grid, snow_sink *sink);
+snow_status snow_reiter_load(snow_source *source, const snow_options *options, snow_grid **grid);
+
+#endif

@@ -1,0 +1,195 @@
+/* What a saved grid of Reiter's model holds: the scene, then the cells row by
+   row. It does not depend on the engine. */
+#include "reiter/model.h"
+
+typedef enum cell_kind {
+    KIND_VAPOUR = 0,
+    KIND_RECEPTIVE = 1,
+    KIND_FROZEN = 2
+} cell_kind;
+
+/* The fewest bytes of an interior cell: its kind and its value. */
+enum { LEAST_CELL_SIZE = 9 };
+
+static cell_kind kind_of(const reiter_cell *cell)
+{
+    return cell->frozen ? KIND_FROZEN : cell->receptive ? KIND_RECEPTIVE : KIND_VAPOUR;
+}
+
+static void save_scene(const snow_grid *grid, snow_sink *sink)
+{
+    const reiter *model = reiter_of(grid);
+    const snow_reiter_params *params = &model->params;
+    snow_sink_double(sink, params->background);
+    snow_sink_double(sink, params->addition);
+    snow_sink_double(sink, params->diffusion);
+    snow_sink_u32(sink, (uint32_t)params->domain);
+    snow_sink_u32(sink, (uint32_t)params->radius);
+    snow_sink_u32(sink, (uint32_t)params->width);
+    snow_sink_u32(sink, (uint32_t)params->height);
+    snow_sink_u32(sink, (uint32_t)params->rim);
+    snow_sink_u32(sink, (uint32_t)params->engine);
+    snow_sink_u8(sink, params->record_freeze_steps != 0);
+    snow_sink_u8(sink, params->allow_unstable != 0);
+    snow_sink_u8(sink, model->addition_at != NULL);
+    snow_sink_u8(sink, grid->census.still);
+    snow_sink_double(sink, model->bound);
+    snow_sink_u64(sink, (uint64_t)grid->census.steps);
+}
+
+static void save_cell(const snow_grid *grid, snow_sink *sink, int32_t q, int32_t r)
+{
+    const reiter *model = reiter_of(grid);
+    size_t number = snow_domain_number(&model->hull, q, r);
+    reiter_cell cell = model->engine->get(grid, q, r);
+    if (snow_domain_has(&grid->domain, q, r))
+        snow_sink_u8(sink, (uint8_t)kind_of(&cell));
+    snow_sink_double(sink, cell.value);
+    if (model->engine == &snow_reiter_quad)
+        snow_sink_double(sink, cell.low);
+    if (cell.receptive)
+        snow_sink_u32(sink, cell.additions);
+    if (cell.frozen && model->freeze_step != NULL)
+        snow_sink_u32(sink, model->freeze_step[number]);
+    if (model->addition_at != NULL)
+        snow_sink_double(sink, model->addition_at[number]);
+}
+
+void snow_reiter_save(const snow_grid *grid, snow_sink *sink)
+{
+    const snow_domain *hull = &reiter_of(grid)->hull;
+    save_scene(grid, sink);
+    for (int32_t row = 0; row < hull->rows; row++)
+        for (int32_t q = hull->run[row].first; q < hull->run[row].end; q++)
+            save_cell(grid, sink, q, hull->top + row);
+}
+
+typedef struct saved_scene {
+    snow_reiter_params params;
+    bool own_additions;
+    bool still;
+    double bound;
+    int64_t steps;
+} saved_scene;
+
+/* Sizes are compared with the data before anything is allocated for them. */
+static uint64_t cells_of(const snow_reiter_params *params)
+{
+    switch (params->domain) {
+    case SNOW_REITER_DISC: return snow_domain_disc_cells(params->radius);
+    case SNOW_REITER_HEXAGON: return snow_domain_hexagon_cells(params->radius);
+    case SNOW_REITER_RECTANGLE: break;
+    }
+    return (uint64_t)params->width * (uint64_t)params->height;
+}
+
+static snow_status load_scene(snow_source *source, saved_scene *scene)
+{
+    snow_reiter_params *params = &scene->params;
+    snow_reiter_params_init(params, sizeof *params);
+    params->background = snow_source_double(source);
+    params->addition = snow_source_double(source);
+    params->diffusion = snow_source_double(source);
+    params->domain = (snow_reiter_domain)snow_source_u32(source);
+    params->radius = (int32_t)snow_source_u32(source);
+    params->width = (int32_t)snow_source_u32(source);
+    params->height = (int32_t)snow_source_u32(source);
+    params->rim = (snow_reiter_rim)snow_source_u32(source);
+    params->engine = (snow_reiter_engine)snow_source_u32(source);
+    params->record_freeze_steps = snow_source_u8(source);
+    params->allow_unstable = snow_source_u8(source);
+    uint8_t own_additions = snow_source_u8(source);
+    uint8_t still = snow_source_u8(source);
+    scene->own_additions = own_additions == 1;
+    scene->still = still == 1;
+    scene->bound = snow_source_double(source);
+    uint64_t steps = snow_source_u64(source);
+    scene->steps = (int64_t)steps;
+    if (source->truncated)
+        return SNOW_ERROR_TRUNCATED;
+    int exponent;
+    bool sound = own_additions <= 1 && still <= 1 && steps <= UINT64_C(1) << 62 && scene->bound > 0x1p-65 &&
+                 scene->bound < 0x1p11 && frexp(scene->bound, &exponent) == 0.5 &&
+                 snow_reiter_params_check(params) == SNOW_OK;
+    if (!sound)
+        return SNOW_ERROR_DAMAGED;
+    return cells_of(params) <= snow_source_left(source) / LEAST_CELL_SIZE ? SNOW_OK : SNOW_ERROR_TRUNCATED;
+}
+
+static bool is_sound_cell(const saved_scene *scene, const reiter_cell *cell, double addition)
+{
+    if (!isfinite(cell->value) || !isfinite(cell->low) || !(addition >= 0 && addition <= 1))
+        return false;
+    if (cell->additions > REITER_MERGE_STEPS || cell->additions > scene->steps)
+        return false;
+    if (cell->frozen)
+        return true;
+    return fabs(cell->value) <= scene->bound * 1024 && reiter_value(cell, addition) < reiter_threshold();
+}
+
+static snow_status load_cell(snow_grid *grid, snow_source *source, const saved_scene *scene, int32_t q, int32_t r)
+{
+    reiter *model = reiter_of(grid);
+    size_t number = snow_domain_number(&model->hull, q, r);
+    uint8_t kind = snow_domain_has(&grid->domain, q, r) ? snow_source_u8(source) : KIND_VAPOUR;
+    reiter_cell cell = {.frozen = kind == KIND_FROZEN, .receptive = kind != KIND_VAPOUR};
+    cell.value = snow_source_double(source);
+    if (model->engine == &snow_reiter_quad)
+        cell.low = snow_source_double(source);
+    if (cell.receptive)
+        cell.additions = snow_source_u32(source);
+    if (cell.frozen && model->freeze_step != NULL)
+        model->freeze_step[number] = snow_source_u32(source);
+    double addition = model->params.addition;
+    if (model->addition_at != NULL)
+        addition = model->addition_at[number] = snow_source_double(source);
+    if (source->truncated)
+        return SNOW_ERROR_TRUNCATED;
+    if (kind > KIND_FROZEN || !is_sound_cell(scene, &cell, addition))
+        return SNOW_ERROR_DAMAGED;
+    model->engine->put(grid, q, r, &cell);
+    return SNOW_OK;
+}
+
+static snow_status load_cells(snow_grid *grid, snow_source *source, const saved_scene *scene)
+{
+    reiter *model = reiter_of(grid);
+    const snow_domain *hull = &model->hull;
+    grid->census.steps = scene->steps;
+    model->bound = scene->bound;
+    if (scene->own_additions) {
+        model->addition_at = snow_heap_get(&grid->heap, hull->cells, sizeof *model->addition_at);
+        if (model->addition_at == NULL)
+            return grid->heap.refusal;
+    }
+    for (int32_t row = 0; row < hull->rows; row++) {
+        for (int32_t q = hull->run[row].first; q < hull->run[row].end; q++) {
+            snow_status status = load_cell(grid, source, scene, q, hull->top + row);
+            if (status != SNOW_OK)
+                return status;
+        }
+    }
+    if (!snow_reiter_receptive_are_sound(grid))
+        return SNOW_ERROR_DAMAGED;
+    model->engine->settle(grid);
+    snow_reiter_recount(grid);
+    grid->census.still = scene->still;
+    return SNOW_OK;
+}
+
+snow_status snow_reiter_load(snow_source *source, const snow_options *options, snow_grid **result)
+{
+    saved_scene scene;
+    snow_status status = load_scene(source, &scene);
+    snow_grid *grid = NULL;
+    if (status == SNOW_OK)
+        status = snow_reiter_build(&scene.params, options, &grid);
+    if (status == SNOW_OK)
+        status = load_cells(grid, source, &scene);
+    if (status != SNOW_OK) {
+        snow_destroy(grid);
+        return status;
+    }
+    *result = grid;
+    return SNOW_OK;
+}
