@@ -443,7 +443,8 @@ SNOW_API snow_status snow_load(const void *buffer, size_t size, const snow_optio
  * @brief Makes a grid from what a reader gives.
  * @param read the reader; it is read until it says that the end is reached.
  * @param context handed to it.
- * @param options as in snow_load().
+ * @param options as in snow_load(); the memory limit holds for the data while
+ *        they are read, and for the grid, each by itself.
  * @param grid receives the grid; the caller destroys it.
  * @return as snow_load(); and ::SNOW_ERROR_READ when the reader failed.
  */

@@ -84,7 +84,7 @@ typedef double (*snow_reiter_field)(void *context, int32_t q, int32_t r);
 typedef struct snow_reiter_params {
     size_t struct_size; /**< Set by snow_reiter_params_init(). */
 
-    double background; /**< β, the value of every cell at the start, 0 <= β < 1; 0.4 by default. */
+    double background; /**< β, the value of every cell at the start, 0 <= β < 1 − 2^−40; 0.4 by default. */
     double addition;   /**< γ, what a receptive cell gains in a step, 0 <= γ <= 1; 0.001 by default. */
     double diffusion;  /**< α, 0 <= α <= 8/3; 1 by default. */
 
@@ -96,9 +96,9 @@ typedef struct snow_reiter_params {
 
     const snow_cell *seeds; /**< Cells that are ice (u = 1) at the start, copied; NULL (default): the origin. */
     size_t seed_count;      /**< How many seeds; with a list of 0 cells nothing is ice at the start. */
-    int32_t cluster;        /**< q > 0: a random cluster on a q × q patch of rows round the origin in place of seeds, each cell ice with probability 1/2 (paper, fig. 6); 0 by default. */
+    int32_t cluster;        /**< q > 0: a random cluster on a q × q patch of rows round the origin in place of seeds, each cell ice with probability 1/2, an empty patch drawn again (paper, fig. 6); 0 by default. */
     int32_t noise_symmetric; /**< 1: the noise has the symmetry of the hexagon; 0 by default. */
-    double noise;            /**< Amplitude: each cell starts at β + noise·x, x uniform in [−1, 1); 0 by default. */
+    double noise;            /**< Amplitude: each cell starts at β + noise·x, x uniform in [−1, 1), and β ± noise must both be a background; 0 by default. */
     uint64_t random_seed;    /**< Chooses the random cluster and the noise; 0 by default. */
 
     snow_reiter_field background_at; /**< β of each cell in place of background, the fixed cells included; NULL by default. */
@@ -145,9 +145,10 @@ SNOW_API const char *snow_reiter_preset_source(size_t index);
  * @brief Makes a grid of Reiter's model.
  *
  * Fields that can be read: all. Fields that can be set: ::SNOW_FIELD_VALUE
- * (0 <= u; u >= 1 makes ice, also of cells that were not, and less melts it;
- * freeze steps are then those of the call), ::SNOW_FIELD_VAPOUR (0 <= v < 1,
- * of the cells that are not receptive; others are passed over),
+ * (0 <= u; u >= 1 − 2^−40 makes ice, also of cells that were not, and less melts
+ * it; freeze steps are then those of the call), ::SNOW_FIELD_VAPOUR
+ * (0 <= v < 1 − 2^−40, of the cells that are not receptive; others are passed
+ * over; above α = 2, where the field itself passes below 0, from −1 on),
  * ::SNOW_FIELD_ADDITION (of the interior) and ::SNOW_FIELD_BACKGROUND (of the
  * fixed cells next to the interior; others are passed over). A set vapour is
  * rounded to the grid's quantum (doc/reiter.md).

@@ -17,13 +17,23 @@ static snow_status can_read(const snow_grid *grid, snow_field field)
     return is_field(field) ? grid->operations->can_read(grid, field) : SNOW_ERROR_ENUM;
 }
 
+static void read_rows(const snow_grid *grid, snow_field field, const snow_rect *rect, double *values)
+{
+    size_t width = (size_t)rect->width;
+    snow_floating floating;
+    snow_floating_enter(&floating);
+    for (int32_t row = 0; row < rect->height && width > 0; row++)
+        grid->operations->read(grid, field, rect->q, (int64_t)rect->r + row, width, values + (size_t)row * width);
+    snow_floating_leave(&floating);
+}
+
 snow_status snow_cell_value(const snow_grid *grid, snow_field field, int32_t q, int32_t r, double *value)
 {
     if (grid == NULL || value == NULL)
         return SNOW_ERROR_NULL;
     snow_status status = can_read(grid, field);
     if (status == SNOW_OK)
-        grid->operations->read(grid, field, q, r, 1, value);
+        read_rows(grid, field, &(snow_rect){q, r, 1, 1}, value);
     return status;
 }
 
@@ -53,9 +63,7 @@ snow_status snow_field_copy(const snow_grid *grid, snow_field field, const snow_
         return SNOW_OK;
     if (capacity < cells)
         return SNOW_ERROR_BUFFER;
-    size_t width = (size_t)rect->width;
-    for (int32_t row = 0; row < rect->height && width > 0; row++)
-        grid->operations->read(grid, field, rect->q, (int64_t)rect->r + row, width, values + (size_t)row * width);
+    read_rows(grid, field, rect, values);
     return SNOW_OK;
 }
 

@@ -167,7 +167,7 @@ static bool is_still(const snow_grid *grid)
             real flow = flow_into(grid, q, r);
             bool gains = cell->receptive && !cell->frozen &&
                          reiter_addition(model, snow_domain_number(&model->hull, q, r)) > 0;
-            if (gains || real_high(flow) != 0)
+            if (gains || (!cell->frozen && real_high(flow) != 0))
                 return false;
         }
     }

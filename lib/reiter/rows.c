@@ -126,16 +126,6 @@ static void put(snow_grid *grid, int32_t q, int32_t r, const reiter_cell *cell)
     cells->since[i] = (uint32_t)grid->census.steps - cell->additions;
 }
 
-static bool is_by_ice(const snow_grid *grid, int32_t q, int32_t r)
-{
-    const rows *cells = rows_of(grid);
-    const unsigned char *row = cells->state + rows_number(grid, q, r);
-    const unsigned char *above = cells->state + rows_number(grid, q, r - 1);
-    const unsigned char *below = cells->state + rows_number(grid, q, r + 1);
-    return row[-1] == CELL_FROZEN || row[1] == CELL_FROZEN || above[0] == CELL_FROZEN || above[1] == CELL_FROZEN ||
-           below[-1] == CELL_FROZEN || below[0] == CELL_FROZEN;
-}
-
 /* A cell that was put may have become receptive, or no longer be. */
 static void settle_state(const snow_grid *grid, int32_t q, int32_t r)
 {
@@ -144,7 +134,7 @@ static void settle_state(const snow_grid *grid, int32_t q, int32_t r)
     if (cells->state[i] == CELL_FROZEN)
         return;
     bool was_front = cells->state[i] == CELL_FRONT;
-    bool is_front = is_by_ice(grid, q, r);
+    bool is_front = rows_is_by(grid, q, r, CELL_FROZEN);
     if (is_front && !was_front) {
         cells->collected[i] = cells->vapour[cells->now][i];
         cells->since[i] = (uint32_t)grid->census.steps;
@@ -179,7 +169,9 @@ static void diffuse_block(const snow_grid *grid, row_block *block, double *next)
     const double weight = model->params.diffusion / 12;
     const double rounder = reiter_rounder(model);
     bool watch = reiter_overshoots(model);
+    const double highest_vapour = reiter_threshold() - 0x1p-53;
     block->unstable = false;
+    block->overshoots = false;
     for (int32_t row = block->first_row; row < block->end_row; row++) {
         const snow_run_of_cells *run = &grid->domain.run[row];
         int32_t r = grid->domain.top + row;
@@ -187,8 +179,10 @@ static void diffuse_block(const snow_grid *grid, row_block *block, double *next)
         size_t count = (size_t)(run->end - run->first);
         cells->kernel->diffuse(next + first, vapour + rows_number(grid, run->first, r - 1), vapour + first,
                                vapour + rows_number(grid, run->first, r + 1), count, weight, rounder);
-        if (watch && cells->kernel->exceeds(next + first, count, model->bound))
-            block->unstable = true;
+        if (watch) {
+            block->unstable = block->unstable || cells->kernel->exceeds(next + first, count, model->bound);
+            block->overshoots = block->overshoots || cells->kernel->exceeds(next + first, count, highest_vapour);
+        }
     }
 }
 
@@ -218,7 +212,8 @@ static void collect_only(void *argument, size_t index)
     const snow_grid *grid = argument;
     rows *cells = rows_of(grid);
     snow_rows_collect(grid, &cells->block[index], next_of(cells));
-    snow_rows_overshoot(grid, &cells->block[index], next_of(cells));
+    if (cells->block[index].overshoots)
+        snow_rows_overshoot(grid, &cells->block[index], next_of(cells));
 }
 
 /* Where the field may grow without bound, that is known before anything is changed. */

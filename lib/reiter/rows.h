@@ -21,10 +21,11 @@ typedef struct row_block {
     int32_t end_row;
     size_t first;
     size_t end;
-    size_t front;   /* cells of the front */
+    size_t front;   /* listed cells of the front, ice at the rim included */
     size_t fresh;   /* cells that froze in this step */
     bool collected; /* a cell of the front collected vapour in this step */
-    bool unstable;
+    bool unstable;   /* a cell is beyond the bound */
+    bool overshoots; /* a cell is, perhaps, ice without ice beside it */
 } row_block;
 
 /* Cells are numbered as in the hull. */
@@ -50,6 +51,17 @@ static inline size_t rows_number(const snow_grid *grid, int32_t q, int32_t r)
 {
     const reiter *model = reiter_of(grid);
     return (size_t)(rows_of(grid)->offset[r - model->hull.top] + q);
+}
+
+/* Whether a neighbour of an interior cell is in a state. */
+static inline bool rows_is_by(const snow_grid *grid, int32_t q, int32_t r, cell_state state)
+{
+    const unsigned char *all = rows_of(grid)->state;
+    const unsigned char *row = all + rows_number(grid, q, r);
+    const unsigned char *above = all + rows_number(grid, q, r - 1);
+    const unsigned char *below = all + rows_number(grid, q, r + 1);
+    return row[-1] == state || row[1] == state || above[0] == state || above[1] == state || below[-1] == state ||
+           below[0] == state;
 }
 
 /* rows_front.c */

@@ -1,4 +1,5 @@
-/* The front of the ROWS engine: the receptive cells that are not frozen yet. */
+/* The front of the ROWS engine: the receptive cells that are not frozen yet,
+   and, because the fixed cells feed it for ever, ice at the very rim. */
 #include "reiter/rows.h"
 
 #include <string.h>
@@ -18,10 +19,11 @@ void snow_rows_collect(const snow_grid *grid, row_block *block, double *next)
         uint32_t i = front[k];
         double inflow = next[i];
         next[i] = 0;
-        collected = collected || inflow != 0;
         cells->collected[i] += inflow;
         double value = cells->collected[i] + reiter_addition(model, i) * (step - cells->since[i]);
-        if (value < threshold) {
+        bool open = value < threshold;
+        collected = collected || (open && inflow != 0);
+        if (open || cells->state[i] == CELL_FROZEN) {
             front[k] = front[left];
             front[left++] = i;
         }
@@ -71,6 +73,12 @@ static row_block *block_of(rows *cells, size_t i)
     return block;
 }
 
+static void list(rows *cells, size_t i)
+{
+    row_block *block = block_of(cells, i);
+    cells->listed[block->first + block->front++] = (uint32_t)i;
+}
+
 static void join_front(snow_grid *grid, double *next, size_t i)
 {
     rows *cells = rows_of(grid);
@@ -80,8 +88,7 @@ static void join_front(snow_grid *grid, double *next, size_t i)
     cells->collected[i] = next[i];
     cells->since[i] = (uint32_t)grid->census.steps;
     next[i] = 0;
-    row_block *block = block_of(cells, i);
-    cells->listed[block->first + block->front++] = (uint32_t)i;
+    list(cells, i);
 }
 
 static void freeze_cell(snow_grid *grid, double *next, snow_cell cell)
@@ -97,9 +104,17 @@ static void freeze_cell(snow_grid *grid, double *next, snow_cell cell)
     snow_reiter_freeze(grid, cell.q, cell.r);
 }
 
+/* Ice at the very rim goes on collecting what the fixed cells give off. */
+static bool touches_fixed(const snow_grid *grid, snow_cell cell)
+{
+    return rows_is_by(grid, cell.q, cell.r, CELL_FIXED);
+}
+
 static void extend_front(snow_grid *grid, double *next, snow_cell cell)
 {
     size_t i = rows_number(grid, cell.q, cell.r);
+    if (touches_fixed(grid, cell))
+        list(rows_of(grid), i);
     size_t above = rows_number(grid, cell.q, cell.r - 1);
     size_t below = rows_number(grid, cell.q, cell.r + 1);
     join_front(grid, next, i - 1);
@@ -135,9 +150,11 @@ bool snow_rows_front_gains(const snow_grid *grid)
     const rows *cells = rows_of(grid);
     for (size_t b = 0; b < cells->blocks; b++) {
         const row_block *block = &cells->block[b];
-        for (size_t k = block->first; k < block->first + block->front; k++)
-            if (reiter_addition(model, cells->listed[k]) > 0)
+        for (size_t k = block->first; k < block->first + block->front; k++) {
+            uint32_t i = cells->listed[k];
+            if (cells->state[i] == CELL_FRONT && reiter_addition(model, i) > 0)
                 return true;
+        }
     }
     return false;
 }
@@ -149,8 +166,14 @@ void snow_rows_list_front(snow_grid *grid)
         row_block *block = &cells->block[b];
         block->front = 0;
         block->fresh = 0;
-        for (size_t i = block->first; i < block->end; i++)
-            if (cells->state[i] == CELL_FRONT)
-                cells->listed[block->first + block->front++] = (uint32_t)i;
+    }
+    const snow_domain *domain = &grid->domain;
+    for (int32_t row = 0; row < domain->rows; row++) {
+        for (int32_t q = domain->run[row].first; q < domain->run[row].end; q++) {
+            snow_cell cell = {q, domain->top + row};
+            size_t i = rows_number(grid, q, cell.r);
+            if (cells->state[i] == CELL_FRONT || (cells->state[i] == CELL_FROZEN && touches_fixed(grid, cell)))
+                list(cells, i);
+        }
     }
 }

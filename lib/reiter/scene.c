@@ -19,9 +19,11 @@ static snow_status start_value(const snow_grid *grid, const snow_reiter_params *
         return SNOW_ERROR_NOT_FINITE;
     if (!reiter_is_vapour(*value))
         return SNOW_ERROR_REITER_BACKGROUND;
+    if (!reiter_is_vapour(*value - params->noise) || !reiter_is_vapour(*value + params->noise))
+        return SNOW_ERROR_REITER_NOISE;
     if (params->noise > 0 && snow_domain_has(&grid->domain, q, r))
         *value += noise_at(params, q, r);
-    return reiter_is_vapour(*value) ? SNOW_OK : SNOW_ERROR_REITER_NOISE;
+    return SNOW_OK;
 }
 
 static snow_status fill(snow_grid *grid, const snow_reiter_params *params)

@@ -189,18 +189,21 @@ static snow_status add_line(drawing *picture, sample_line line, light_sum *sums)
         status = fill_strip(picture, line.outer);
     if (status != SNOW_OK)
         return status;
-    for (int32_t x = picture->begin; x < picture->end; x++, sums++)
+    for (int32_t x = picture->begin; x < picture->end; x++, sums++) {
+        light_sum sum = *sums;
         for (int32_t i = 0; i < picture->view.samples; i++, next++) {
             int odd = next->distance[inner] <= line.reach ? inner : 1 - inner;
             unsigned shade = picture->strips[odd].shades[next->place[odd]];
             bool ice = shade >= SNOW_SHADES;
             if (picture->cut_out && !ice)
                 continue;
-            sums->red += picture->paint.shade[shade].red;
-            sums->green += picture->paint.shade[shade].green;
-            sums->blue += picture->paint.shade[shade].blue;
-            sums->ice += ice;
+            sum.red += picture->paint.shade[shade].red;
+            sum.green += picture->paint.shade[shade].green;
+            sum.blue += picture->paint.shade[shade].blue;
+            sum.ice += ice;
         }
+        *sums = sum;
+    }
     return SNOW_OK;
 }
 

@@ -129,6 +129,21 @@ static void mix_paper(snow_light *vapour, snow_light *ice)
     }
 }
 
+static void mix_bytes(snow_paint *paint)
+{
+    uint8_t byte = 0;
+
+    paint->byte_from[0] = 0;
+    for (int i = 1; i < 256; i++)
+        paint->byte_from[i] = quantise(decode((i - 0.5) / 255.0));
+    paint->byte_from[256] = UINT32_MAX;
+    for (uint32_t i = 0; i < 4096; i++) {
+        if (paint->byte_from[byte + 1] <= 16 * i)
+            byte++;
+        paint->byte_at[i] = byte;
+    }
+}
+
 snow_field snow_palette_field(snow_palette palette)
 {
     return palette == SNOW_PALETTE_AGE ? SNOW_FIELD_FREEZE_STEP : SNOW_FIELD_VALUE;
@@ -142,10 +157,7 @@ void snow_paint_mix(snow_paint *paint, snow_palette palette, double greatest)
     paint->first = palette == SNOW_PALETTE_AGE ? 0.0 : 1.0;
     paint->ice_from = palette == SNOW_PALETTE_AGE ? 0.0 : 1.0 - SNOW_REITER_SLACK;
     paint->range = greatest > paint->first ? greatest - paint->first : 0.0;
-    paint->byte_from[0] = 0;
-    for (int byte = 1; byte < 256; byte++)
-        paint->byte_from[byte] = quantise(decode((byte - 0.5) / 255.0));
-
+    mix_bytes(paint);
     switch (palette) {
     case SNOW_PALETTE_PAPER:
         mix_paper(vapour, ice);
@@ -183,10 +195,6 @@ uint16_t snow_paint_shade(const snow_paint *paint, double number)
 
 uint8_t snow_paint_byte(const snow_paint *paint, uint32_t light)
 {
-    unsigned byte = 0;
-
-    for (unsigned half = 128; half > 0; half /= 2)
-        if (light >= paint->byte_from[byte + half])
-            byte += half;
-    return (uint8_t)byte;
+    uint8_t byte = paint->byte_at[light / 16];
+    return (uint8_t)(byte + (light >= paint->byte_from[byte + 1]));
 }
