@@ -51,7 +51,7 @@ typedef struct snow_view {
     snow_palette palette; /**< SNOW_PALETTE_PAPER by default. */
     snow_pixel pixel;     /**< SNOW_PIXEL_RGB by default. */
     int32_t samples;      /**< Samples per pixel along each side, 1 to 8; more smooth the edges; 2 by default. */
-    int32_t transparent;  /**< 1: whatever is not ice is transparent (with SNOW_PIXEL_RGBA); 0 by default. */
+    int32_t transparent;  /**< 1: whatever is not ice is transparent (only with SNOW_PIXEL_RGBA); 0 by default. */
 } snow_view;
 
 /**
@@ -69,7 +69,8 @@ SNOW_API void snow_view_init(snow_view *view, size_t struct_size);
  * @param view initialised; width, height, scale and centre are set.
  * @return ::SNOW_OK, ::SNOW_ERROR_NULL, ::SNOW_ERROR_STRUCT_SIZE,
  *         ::SNOW_ERROR_STRUCT_TAIL; ::SNOW_ERROR_RANGE when side is out of
- *         range, or 0 and the grid is wider than 65,535 cells.
+ *         range, or 0 and the grid is wider than 65,535 cells, or when the
+ *         scale would leave its range.
  */
 SNOW_API snow_status snow_view_fit(const snow_grid *grid, int32_t side, snow_view *view);
 
@@ -86,8 +87,8 @@ SNOW_API snow_status snow_view_fit(const snow_grid *grid, int32_t side, snow_vie
  *         ::SNOW_ERROR_STRUCT_TAIL, ::SNOW_ERROR_ENUM, ::SNOW_ERROR_RANGE,
  *         ::SNOW_ERROR_NOT_FINITE; ::SNOW_ERROR_BUFFER when capacity is too
  *         small, nothing is drawn; ::SNOW_ERROR_NOT_RECORDED for
- *         ::SNOW_PALETTE_AGE without freeze steps; ::SNOW_ERROR_NO_MEMORY.
- *         Cost: samples² reads a pixel, and one read a cell.
+ *         ::SNOW_PALETTE_AGE without freeze steps. Cost: samples² look-ups a
+ *         pixel, and a few reads a cell; no memory is asked for.
  */
 SNOW_API snow_status snow_render(const snow_grid *grid, const snow_view *view, void *pixels, size_t capacity,
                                  size_t *size);

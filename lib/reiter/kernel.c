@@ -11,8 +11,12 @@
 static void diffuse(double *restrict out, const double *restrict above, const double *restrict row,
                     const double *restrict below, size_t count, double weight, double rounder)
 {
+    const double *left = row - 1;
+    const double *right = row + 1;
+    const double *above_right = above + 1;
+    const double *below_left = below - 1;
     for (size_t i = 0; i < count; i++) {
-        double sum = (row[i - 1] + row[i + 1]) + (above[i] + above[i + 1]) + (below[i - 1] + below[i]);
+        double sum = (left[i] + right[i]) + (above[i] + above_right[i]) + (below_left[i] + below[i]);
         double flow = weight * (sum - 6 * row[i]);
         out[i] = row[i] + ((flow + rounder) - rounder);
     }

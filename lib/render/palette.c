@@ -4,8 +4,8 @@
  * A ramp of colours is given by a few stops and mixed between them in the cube
  * roots of cone responses. That is the same as mixing linearly in the Oklab
  * colour space (B. Ottosson, "A perceptual color space for image processing",
- * 2020), a linear image of those roots: equal steps look equal, and no mixture
- * turns grey or purple on its way.
+ * 2020, whose matrices these are), a linear image of those roots: equal steps
+ * look about equal, and blues do not drift towards purple.
  */
 #include "render/palette.h"
 
@@ -33,7 +33,7 @@ typedef struct ramp {
     stop stops[MOST_STOPS];
 } ramp;
 
-/* From the newest ice, or the first cell that froze, to the other end. */
+/* Vapour from 0 to 1; ice from u = 1, or the first cell that froze, to the greatest number on the grid. */
 static const ramp frost_sky = {3, {{0.0, 3, 7, 20}, {0.4, 11, 27, 61}, {1.0, 44, 80, 132}}};
 static const ramp frost_ice = {
     4, {{0.0, 255, 255, 255}, {0.25, 212, 233, 252}, {0.6, 140, 190, 240}, {1.0, 62, 124, 206}}};
