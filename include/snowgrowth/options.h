@@ -89,7 +89,7 @@ typedef struct snow_options {
     uint64_t memory_limit;          /**< Bytes that the grid may hold at once; 0: no limit. */
     int32_t threads;                /**< Threads that share a step: 1 (default) to 1024; 0: one per processor. */
     snow_isa isa;                   /**< SNOW_ISA_AUTO (default), or forced. */
-    snow_parallel_for parallel_for; /**< Runs the tasks of a step, `threads` of them, in place of our threads; NULL: ours. */
+    snow_parallel_for parallel_for; /**< Runs the tasks of a step, a few for each of `threads`, in place of our threads; NULL: ours. */
     void *parallel_context;         /**< Handed to parallel_for. */
 } snow_options;
 

@@ -63,10 +63,16 @@ typedef enum snow_reiter_rim {
 /** @brief What computes the steps. */
 typedef enum snow_reiter_engine {
     SNOW_REITER_ENGINE_AUTO = 0,      /**< The fastest that the scene allows. */
-    SNOW_REITER_ENGINE_ROWS = 1,      /**< Vectorised rows. */
+    SNOW_REITER_ENGINE_ROWS = 1,      /**< Vectorised rows of the part of the plane that decides the rest; what does not change is not computed. */
     SNOW_REITER_ENGINE_REFERENCE = 2, /**< A plain reading of the paper; slow; the same bits as the fast engines. */
     SNOW_REITER_ENGINE_QUAD = 3       /**< The plain reading in double-double arithmetic (about 31 digits), very slow: the truth that errors are measured against. */
 } snow_reiter_engine;
+
+/** @brief Whether a scene is computed by its symmetry. */
+typedef enum snow_reiter_symmetry {
+    SNOW_REITER_SYMMETRY_AUTO = 0, /**< The largest group that domain, seeds and noise share: one fundamental part is computed, queries see the whole. */
+    SNOW_REITER_SYMMETRY_NONE = 1  /**< Every cell is computed. The bits are the same. */
+} snow_reiter_symmetry;
 
 /**
  * @brief A number for each cell, asked for once when the grid is created.
@@ -108,6 +114,7 @@ typedef struct snow_reiter_params {
     int32_t record_freeze_steps; /**< 1: keep the step in which each cell froze, 4 bytes a cell; 0 by default. */
     int32_t allow_unstable;      /**< 1: diffusion up to 4 is allowed; 0 by default. */
     snow_reiter_engine engine;   /**< SNOW_REITER_ENGINE_AUTO by default. */
+    snow_reiter_symmetry symmetry; /**< SNOW_REITER_SYMMETRY_AUTO by default. */
 } snow_reiter_params;
 
 /**
@@ -153,8 +160,11 @@ SNOW_API const char *snow_reiter_preset_source(size_t index);
  * fixed cells next to the interior; others are passed over). A set vapour is
  * rounded to the grid's quantum (doc/reiter.md).
  *
- * Memory: about 33 bytes a cell of the interior, 37 with freeze steps; stepping
- * asks for none.
+ * Setting a field of a scene that is computed by its symmetry unfolds it for good.
+ *
+ * Memory: about 35 bytes for each cell that is computed, 39 with freeze steps;
+ * a scene with all twelve symmetries computes one cell in twelve. Stepping asks
+ * for none.
  *
  * @param params the scene.
  * @param options memory, threads, instruction set; NULL: the defaults.

@@ -13,7 +13,7 @@ int snow_isa_available(snow_isa isa)
         return 1;
 #ifdef SNOW_HAVE_X86_KERNELS
     case SNOW_ISA_AVX2:
-        return __builtin_cpu_supports("avx2") != 0;
+        return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
     case SNOW_ISA_AVX512:
         return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
                __builtin_cpu_supports("avx512dq");

@@ -43,15 +43,14 @@ static snow_run_of_cells rectangle_row(int32_t width, int32_t height, int32_t ro
     return (snow_run_of_cells){first, first + width, 0};
 }
 
-static snow_status start(snow_domain *domain, snow_heap *heap, int32_t top, int32_t rows)
+snow_status snow_domain_start(snow_domain *domain, snow_heap *heap, int32_t top, int32_t rows)
 {
     *domain = (snow_domain){.top = top, .rows = rows};
     domain->run = snow_heap_get(heap, (size_t)rows, sizeof *domain->run);
     return domain->run != NULL ? SNOW_OK : heap->refusal;
 }
 
-/* Numbers the cells and finds the bounds. */
-static void settle(snow_domain *domain)
+void snow_domain_number_cells(snow_domain *domain)
 {
     int32_t first = INT32_MAX;
     int32_t end = INT32_MIN;
@@ -77,34 +76,34 @@ static int32_t disc_last_row(int32_t radius)
 snow_status snow_domain_disc(snow_domain *domain, snow_heap *heap, int32_t radius)
 {
     int32_t last = disc_last_row(radius);
-    snow_status status = start(domain, heap, -last, 2 * last + 1);
+    snow_status status = snow_domain_start(domain, heap, -last, 2 * last + 1);
     if (status != SNOW_OK)
         return status;
     for (int32_t row = 0; row < domain->rows; row++)
         domain->run[row] = disc_row(radius, domain->top + row);
-    settle(domain);
+    snow_domain_number_cells(domain);
     return SNOW_OK;
 }
 
 snow_status snow_domain_hexagon(snow_domain *domain, snow_heap *heap, int32_t radius)
 {
-    snow_status status = start(domain, heap, 1 - radius, 2 * radius - 1);
+    snow_status status = snow_domain_start(domain, heap, 1 - radius, 2 * radius - 1);
     if (status != SNOW_OK)
         return status;
     for (int32_t row = 0; row < domain->rows; row++)
         domain->run[row] = hexagon_row(radius, domain->top + row);
-    settle(domain);
+    snow_domain_number_cells(domain);
     return SNOW_OK;
 }
 
 snow_status snow_domain_rectangle(snow_domain *domain, snow_heap *heap, int32_t width, int32_t height)
 {
-    snow_status status = start(domain, heap, -(height / 2), height);
+    snow_status status = snow_domain_start(domain, heap, -(height / 2), height);
     if (status != SNOW_OK)
         return status;
     for (int32_t row = 0; row < domain->rows; row++)
         domain->run[row] = rectangle_row(width, height, row);
-    settle(domain);
+    snow_domain_number_cells(domain);
     return SNOW_OK;
 }
 
@@ -117,7 +116,7 @@ static void stretch(snow_run_of_cells *run, int32_t first, int32_t end)
 
 snow_status snow_domain_hull(snow_domain *hull, snow_heap *heap, const snow_domain *interior)
 {
-    snow_status status = start(hull, heap, interior->top - 1, interior->rows + 2);
+    snow_status status = snow_domain_start(hull, heap, interior->top - 1, interior->rows + 2);
     if (status != SNOW_OK)
         return status;
     for (int32_t row = 0; row < interior->rows; row++) {
@@ -126,7 +125,7 @@ snow_status snow_domain_hull(snow_domain *hull, snow_heap *heap, const snow_doma
         stretch(&hull->run[row + 1], run->first - 1, run->end + 1);
         stretch(&hull->run[row + 2], run->first - 1, run->end);
     }
-    settle(hull);
+    snow_domain_number_cells(hull);
     return SNOW_OK;
 }
 

@@ -33,6 +33,10 @@ snow_status snow_domain_rectangle(snow_domain *domain, snow_heap *heap, int32_t 
 snow_status snow_domain_hull(snow_domain *hull, snow_heap *heap, const snow_domain *interior);
 void snow_domain_end(snow_domain *domain, snow_heap *heap);
 
+/* For building one's own: first the rows, then, when their runs are known, the rest. */
+snow_status snow_domain_start(snow_domain *domain, snow_heap *heap, int32_t top, int32_t rows);
+void snow_domain_number_cells(snow_domain *domain);
+
 /* How many interior cells each would have, without building it. */
 uint64_t snow_domain_disc_cells(int32_t radius);
 uint64_t snow_domain_hexagon_cells(int32_t radius);
@@ -48,6 +52,41 @@ static inline bool snow_domain_has(const snow_domain *domain, int64_t q, int64_t
 {
     const snow_run_of_cells *run = snow_domain_row(domain, r);
     return q >= run->first && q < run->end;
+}
+
+/* Cell after cell of a domain, less those of another; row by row.
+
+       for (snow_walk walk = snow_walk_over(domain, NULL); snow_walk_next(&walk);)
+           use walk.cell */
+typedef struct snow_walk {
+    const snow_domain *domain;
+    const snow_domain *without; /* may be NULL */
+    int32_t row;
+    int32_t q;
+    snow_cell cell;
+} snow_walk;
+
+static inline snow_walk snow_walk_over(const snow_domain *domain, const snow_domain *without)
+{
+    return (snow_walk){.domain = domain, .without = without, .row = 0, .q = domain->run[0].first};
+}
+
+static inline bool snow_walk_next(snow_walk *walk)
+{
+    const snow_domain *domain = walk->domain;
+    while (walk->row < domain->rows) {
+        int32_t r = domain->top + walk->row;
+        if (walk->q >= domain->run[walk->row].end) {
+            if (++walk->row < domain->rows)
+                walk->q = domain->run[walk->row].first;
+        } else if (walk->without != NULL && snow_domain_has(walk->without, walk->q, r)) {
+            walk->q = snow_domain_row(walk->without, r)->end;
+        } else {
+            walk->cell = (snow_cell){walk->q++, r};
+            return true;
+        }
+    }
+    return false;
 }
 
 /* The number of a cell of the domain. */

@@ -29,30 +29,34 @@ static void count(snow_grid *grid, int32_t q, int32_t r)
     grid->census.rim = grid->census.rim || is_near_rim(grid, q, r);
 }
 
+/* A cell counts with its images. */
+static void count_images(snow_grid *grid, int32_t q, int32_t r)
+{
+    snow_cell image[SNOW_HEXAGON_SYMMETRIES];
+    size_t images = snow_group_images(reiter_of(grid)->group, q, r, image);
+    for (size_t i = 0; i < images; i++)
+        count(grid, image[i].q, image[i].r);
+}
+
 void snow_reiter_freeze(snow_grid *grid, int32_t q, int32_t r)
 {
     reiter *model = reiter_of(grid);
-    count(grid, q, r);
+    count_images(grid, q, r);
     if (model->freeze_step != NULL) {
         int64_t step = grid->census.steps;
-        model->freeze_step[snow_domain_number(&model->hull, q, r)] =
+        model->freeze_step[model->engine->number(grid, q, r)] =
             step < REITER_NEVER ? (uint32_t)step : REITER_NEVER - 1;
     }
 }
 
 void snow_reiter_recount(snow_grid *grid)
 {
-    const reiter *model = reiter_of(grid);
     int64_t steps = grid->census.steps;
     snow_census_start(&grid->census);
     grid->census.steps = steps;
-    for (int32_t row = 0; row < grid->domain.rows; row++) {
-        const snow_run_of_cells *run = &grid->domain.run[row];
-        int32_t r = grid->domain.top + row;
-        for (int32_t q = run->first; q < run->end; q++)
-            if (model->engine->get(grid, q, r).frozen)
-                count(grid, q, r);
-    }
+    for (snow_walk walk = reiter_walk_part(grid); snow_walk_next(&walk);)
+        if (reiter_of(grid)->engine->get(grid, walk.cell.q, walk.cell.r).frozen)
+            count_images(grid, walk.cell.q, walk.cell.r);
 }
 
 static bool is_frozen(const snow_grid *grid, int32_t q, int32_t r)
@@ -69,19 +73,20 @@ static bool is_receptive(const snow_grid *grid, int32_t q, int32_t r)
             is_frozen(grid, q - 1, r + 1));
 }
 
+static double greater_vapour(const snow_grid *grid, snow_cell cell, double greatest)
+{
+    double vapour = fabs(reiter_of(grid)->engine->get(grid, cell.q, cell.r).value);
+    return vapour > greatest && !is_receptive(grid, cell.q, cell.r) ? vapour : greatest;
+}
+
 /* The greatest |vapour| of the cells that are not receptive, fixed ones too. */
 static double greatest_vapour(const snow_grid *grid)
 {
-    const reiter *model = reiter_of(grid);
-    const snow_domain *hull = &model->hull;
     double greatest = 0;
-    for (int32_t row = 0; row < hull->rows; row++) {
-        for (int32_t q = hull->run[row].first; q < hull->run[row].end; q++) {
-            double vapour = fabs(model->engine->get(grid, q, hull->top + row).value);
-            if (vapour > greatest && !is_receptive(grid, q, hull->top + row))
-                greatest = vapour;
-        }
-    }
+    for (snow_walk walk = reiter_walk_part(grid); snow_walk_next(&walk);)
+        greatest = greater_vapour(grid, walk.cell, greatest);
+    for (snow_walk walk = reiter_walk_fixed(grid); snow_walk_next(&walk);)
+        greatest = greater_vapour(grid, walk.cell, greatest);
     return greatest;
 }
 
@@ -102,13 +107,11 @@ void snow_reiter_choose_bound(snow_grid *grid)
 
 bool snow_reiter_receptive_are_sound(const snow_grid *grid)
 {
-    const reiter *model = reiter_of(grid);
-    for (int32_t row = 0; row < grid->domain.rows; row++) {
-        const snow_run_of_cells *run = &grid->domain.run[row];
-        int32_t r = grid->domain.top + row;
-        for (int32_t q = run->first; q < run->end; q++)
-            if (model->engine->get(grid, q, r).receptive != is_receptive(grid, q, r))
-                return false;
+    for (snow_walk walk = reiter_walk_part(grid); snow_walk_next(&walk);) {
+        int32_t q = walk.cell.q;
+        int32_t r = walk.cell.r;
+        if (reiter_of(grid)->engine->get(grid, q, r).receptive != is_receptive(grid, q, r))
+            return false;
     }
     return true;
 }
@@ -136,16 +139,14 @@ void snow_reiter_merge_additions(snow_grid *grid)
 {
     const reiter *model = reiter_of(grid);
     bool keeps_low = model->engine == &snow_reiter_quad;
-    for (int32_t row = 0; row < grid->domain.rows; row++) {
-        const snow_run_of_cells *run = &grid->domain.run[row];
-        int32_t r = grid->domain.top + row;
-        for (int32_t q = run->first; q < run->end; q++) {
-            reiter_cell cell = model->engine->get(grid, q, r);
-            if (cell.additions == 0)
-                continue;
-            merge(&cell, reiter_addition(model, snow_domain_number(&model->hull, q, r)), keeps_low);
-            model->engine->put(grid, q, r, &cell);
-        }
+    for (snow_walk walk = reiter_walk_part(grid); snow_walk_next(&walk);) {
+        int32_t q = walk.cell.q;
+        int32_t r = walk.cell.r;
+        reiter_cell cell = model->engine->get(grid, q, r);
+        if (cell.additions == 0)
+            continue;
+        merge(&cell, reiter_addition(model, model->engine->number(grid, q, r)), keeps_low);
+        model->engine->put(grid, q, r, &cell);
     }
     model->engine->settle(grid);
 }

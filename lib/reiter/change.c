@@ -26,13 +26,12 @@ typedef bool (*vapour_visitor)(snow_grid *grid, int32_t q, int32_t r, reiter_cel
 
 static bool visit_vapour(snow_grid *grid, vapour_visitor visitor, double factor)
 {
-    const reiter *model = reiter_of(grid);
-    const snow_domain *hull = &model->hull;
-    for (int32_t row = 0; row < hull->rows; row++) {
-        int32_t r = hull->top + row;
-        for (int32_t q = hull->run[row].first; q < hull->run[row].end; q++) {
-            reiter_cell cell = model->engine->get(grid, q, r);
-            if (!cell.receptive && !visitor(grid, q, r, &cell, factor))
+    snow_walk walks[2] = {reiter_walk_part(grid), reiter_walk_fixed(grid)};
+    for (int i = 0; i < 2; i++) {
+        while (snow_walk_next(&walks[i])) {
+            snow_cell at = walks[i].cell;
+            reiter_cell cell = reiter_of(grid)->engine->get(grid, at.q, at.r);
+            if (!cell.receptive && !visitor(grid, at.q, at.r, &cell, factor))
                 return false;
         }
     }

@@ -46,10 +46,11 @@ static snow_status build_freeze_steps(snow_grid *grid)
     reiter *model = reiter_of(grid);
     if (!model->params.record_freeze_steps)
         return SNOW_OK;
-    model->freeze_step = snow_heap_get_raw(&grid->heap, model->hull.cells, sizeof *model->freeze_step);
+    size_t numbers = model->engine->numbers(grid);
+    model->freeze_step = snow_heap_get_raw(&grid->heap, numbers, sizeof *model->freeze_step);
     if (model->freeze_step == NULL)
         return grid->heap.refusal;
-    for (size_t i = 0; i < model->hull.cells; i++)
+    for (size_t i = 0; i < numbers; i++)
         model->freeze_step[i] = REITER_NEVER;
     return SNOW_OK;
 }
@@ -65,16 +66,22 @@ static snow_status build(snow_grid *grid, const snow_reiter_params *params)
     model->params.background_at = NULL;
     model->params.addition_at = NULL;
     model->params.field_context = NULL;
+    model->group = SNOW_GROUP_TRIVIAL;
     model->bound = 1;
     snow_status status = build_domain(grid, params);
     if (status == SNOW_OK)
         status = snow_domain_hull(&model->hull, &grid->heap, &grid->domain);
+    return status;
+}
+
+snow_status snow_reiter_equip(snow_grid *grid, snow_group group)
+{
+    reiter *model = reiter_of(grid);
+    model->engine = choose_engine(model->params.engine);
+    model->group = model->engine->folds ? group : SNOW_GROUP_TRIVIAL;
+    snow_status status = model->engine->create(grid);
     if (status == SNOW_OK)
         status = build_freeze_steps(grid);
-    if (status == SNOW_OK) {
-        model->engine = choose_engine(params->engine);
-        status = model->engine->create(grid);
-    }
     return status;
 }
 

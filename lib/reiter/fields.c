@@ -8,6 +8,13 @@ snow_status snow_reiter_can_read(const snow_grid *grid, snow_field field)
     return SNOW_OK;
 }
 
+/* Rounded as the fixed cells are, so that no edge shows. */
+static double far_background(const reiter *model)
+{
+    bool exact = model->engine == &snow_reiter_quad;
+    return exact ? model->params.background : reiter_settled(model, model->params.background);
+}
+
 /* A cell that belongs to the medium round the interior. */
 static double read_outside(const snow_grid *grid, snow_field field, int64_t q, int64_t r)
 {
@@ -17,7 +24,7 @@ static double read_outside(const snow_grid *grid, snow_field field, int64_t q, i
     case SNOW_FIELD_VAPOUR:
     case SNOW_FIELD_BACKGROUND:
         return snow_domain_has(&model->hull, q, r) ? model->engine->get(grid, (int32_t)q, (int32_t)r).value
-                                                   : model->params.background;
+                                                   : far_background(model);
     case SNOW_FIELD_FREEZE_STEP: return -1;
     case SNOW_FIELD_FROZEN:
     case SNOW_FIELD_RECEPTIVE:
@@ -36,7 +43,7 @@ static double read_freeze_step(const reiter *model, size_t number)
 static double read_inside(const snow_grid *grid, snow_field field, int32_t q, int32_t r)
 {
     const reiter *model = reiter_of(grid);
-    size_t number = snow_domain_number(&model->hull, q, r);
+    size_t number = model->engine->number(grid, q, r);
     reiter_cell cell = model->engine->get(grid, q, r);
     switch (field) {
     case SNOW_FIELD_VALUE: return reiter_value(&cell, reiter_addition(model, number));
@@ -107,7 +114,7 @@ static snow_status put_value(snow_grid *grid, int32_t q, int32_t r, double value
     model->engine->put(grid, q, r, &cell);
     if (model->freeze_step != NULL && was_frozen != cell.frozen) {
         int64_t step = grid->census.steps;
-        model->freeze_step[snow_domain_number(&model->hull, q, r)] =
+        model->freeze_step[model->engine->number(grid, q, r)] =
             !cell.frozen ? REITER_NEVER : step < REITER_NEVER ? (uint32_t)step : REITER_NEVER - 1;
     }
     return SNOW_OK;
@@ -162,7 +169,7 @@ static snow_status check_addition(snow_grid *grid, int32_t q, int32_t r, double 
 static snow_status put_addition(snow_grid *grid, int32_t q, int32_t r, double value)
 {
     reiter *model = reiter_of(grid);
-    model->addition_at[snow_domain_number(&model->hull, q, r)] = value;
+    model->addition_at[model->engine->number(grid, q, r)] = value;
     return SNOW_OK;
 }
 
@@ -171,10 +178,11 @@ static snow_status give_own_additions(snow_grid *grid)
 {
     reiter *model = reiter_of(grid);
     if (model->addition_at == NULL) {
-        double *addition_at = snow_heap_get_raw(&grid->heap, model->hull.cells, sizeof *addition_at);
+        size_t numbers = model->engine->numbers(grid);
+        double *addition_at = snow_heap_get_raw(&grid->heap, numbers, sizeof *addition_at);
         if (addition_at == NULL)
             return grid->heap.refusal;
-        for (size_t i = 0; i < model->hull.cells; i++)
+        for (size_t i = 0; i < numbers; i++)
             addition_at[i] = model->params.addition;
         model->addition_at = addition_at;
     }
@@ -186,6 +194,8 @@ static snow_status set_values(snow_grid *grid, const snow_domain *domain, const 
                               cell_visitor check, cell_visitor put)
 {
     snow_status status = visit(grid, domain, rect, values, check);
+    if (status == SNOW_OK)
+        status = snow_reiter_unfold(grid);
     if (status != SNOW_OK)
         return status;
     visit(grid, domain, rect, values, put);
@@ -198,6 +208,8 @@ static snow_status set_values(snow_grid *grid, const snow_domain *domain, const 
 static snow_status set_additions(snow_grid *grid, const snow_rect *rect, const double *values)
 {
     snow_status status = visit(grid, &grid->domain, rect, values, check_addition);
+    if (status == SNOW_OK)
+        status = snow_reiter_unfold(grid);
     if (status == SNOW_OK)
         status = give_own_additions(grid);
     if (status == SNOW_OK)

@@ -4,6 +4,7 @@
 #define SNOW_REITER_MODEL_H
 
 #include "base/model.h"
+#include "base/symmetry.h"
 
 #include <snowgrowth/reiter.h>
 
@@ -20,12 +21,21 @@ typedef struct reiter_cell {
     bool receptive;
 } reiter_cell;
 
-/* What computes the steps. Cells are those of the hull: interior and fixed. */
+/* What computes the steps. An engine that folds keeps only the fundamental part
+   of the plane under the scene's group, and cells are then put there only. */
 typedef struct reiter_engine {
+    bool folds;
     snow_status (*create)(snow_grid *grid);
     /* One step of the cells; tells newly frozen cells to snow_reiter_freeze().
        On failure nothing has changed. */
     snow_status (*step)(snow_grid *grid);
+    /* The interior cells that it keeps. */
+    const snow_domain *(*part)(const snow_grid *grid);
+    /* How the engine numbers its cells, for arrays beside it: 0 to numbers − 1.
+       Images of a cell share its number. */
+    size_t (*numbers)(const snow_grid *grid);
+    size_t (*number)(const snow_grid *grid, int32_t q, int32_t r);
+    /* Any interior or fixed cell. */
     reiter_cell (*get)(const snow_grid *grid, int32_t q, int32_t r);
     /* get then gives what was put; settle must follow before the next step. */
     void (*put)(snow_grid *grid, int32_t q, int32_t r, const reiter_cell *cell);
@@ -42,8 +52,9 @@ typedef struct reiter {
     snow_reiter_params params; /* checked; pointers cleared after creation */
     snow_domain hull;          /* the interior and the fixed cells round it */
     double bound;              /* vapour beyond ±bound is unstable; a power of two */
-    double *addition_at;       /* for each cell of the hull; NULL: params.addition everywhere */
-    uint32_t *freeze_step;     /* for each cell of the hull; NULL: not recorded */
+    snow_group group;          /* the symmetries that the scene has and the engine folds by */
+    double *addition_at;       /* as the engine numbers; NULL: params.addition everywhere */
+    uint32_t *freeze_step;     /* as the engine numbers; NULL: not recorded */
     const reiter_engine *engine;
     void *cells; /* the engine's own */
 } reiter;
@@ -87,9 +98,9 @@ static inline double reiter_settled(const reiter *model, double value)
     return rounded < reiter_threshold() ? rounded : reiter_threshold() - model->bound * 0x1p-50;
 }
 
-static inline double reiter_addition(const reiter *model, size_t hull_number)
+static inline double reiter_addition(const reiter *model, size_t number)
 {
-    return model->addition_at != NULL ? model->addition_at[hull_number] : model->params.addition;
+    return model->addition_at != NULL ? model->addition_at[number] : model->params.addition;
 }
 
 /* Reiter's u of a cell that the engine gave. */
@@ -111,8 +122,27 @@ snow_status snow_reiter_conditions_check(double background, double addition, dou
 /* scene.c: fills the engine with the start of the scene. */
 snow_status snow_reiter_scene(snow_grid *grid, const snow_reiter_params *params);
 
-/* create.c: a grid with its domain, engine and arrays, every cell empty. */
+/* The cells that the engine keeps, and the fixed cells round the interior. */
+static inline snow_walk reiter_walk_part(const snow_grid *grid)
+{
+    return snow_walk_over(reiter_of(grid)->engine->part(grid), NULL);
+}
+
+static inline snow_walk reiter_walk_fixed(const snow_grid *grid)
+{
+    return snow_walk_over(&reiter_of(grid)->hull, &grid->domain);
+}
+
+/* create.c: a grid with its domain and hull. */
 snow_status snow_reiter_build(const snow_reiter_params *params, const snow_options *options, snow_grid **grid);
+/* Gives it its engine and arrays, every cell empty; folds by the group where the engine can. */
+snow_status snow_reiter_equip(snow_grid *grid, snow_group group);
+
+/* fold.c */
+/* The symmetries that a set of frozen cells has; sorts the cells. */
+snow_group snow_reiter_group_of_seeds(snow_cell *seeds, size_t count);
+/* From here on every cell is kept by itself. On failure nothing has changed. */
+snow_status snow_reiter_unfold(snow_grid *grid);
 
 /* cells.c */
 void snow_reiter_freeze(snow_grid *grid, int32_t q, int32_t r);

@@ -46,7 +46,8 @@ static snow_status check_enumerations(const snow_reiter_params *params)
 {
     bool known = params->domain >= SNOW_REITER_DISC && params->domain <= SNOW_REITER_RECTANGLE &&
                  params->rim >= SNOW_REITER_RIM_NEAR && params->rim <= SNOW_REITER_RIM_ROW &&
-                 params->engine >= SNOW_REITER_ENGINE_AUTO && params->engine <= SNOW_REITER_ENGINE_QUAD;
+                 params->engine >= SNOW_REITER_ENGINE_AUTO && params->engine <= SNOW_REITER_ENGINE_QUAD &&
+                 params->symmetry >= SNOW_REITER_SYMMETRY_AUTO && params->symmetry <= SNOW_REITER_SYMMETRY_NONE;
     return known ? SNOW_OK : SNOW_ERROR_ENUM;
 }
 

@@ -33,6 +33,23 @@ static reference_cell *cell_at(const snow_grid *grid, int64_t q, int64_t r)
     return &cells[(size_t)(r - box->r) * (size_t)box->width + (size_t)(q - box->q)];
 }
 
+static const snow_domain *reference_part(const snow_grid *grid)
+{
+    return &grid->domain;
+}
+
+static size_t reference_numbers(const snow_grid *grid)
+{
+    const snow_rect *box = &reiter_of(grid)->hull.bounds;
+    return (size_t)box->width * (size_t)box->height;
+}
+
+static size_t reference_number(const snow_grid *grid, int32_t q, int32_t r)
+{
+    const reference_cell *cells = reiter_of(grid)->cells;
+    return (size_t)(cell_at(grid, q, r) - cells);
+}
+
 static reference_cell *neighbour_of(const snow_grid *grid, int32_t q, int32_t r, int which)
 {
     static const int step_q[6] = {1, -1, 0, 0, 1, -1};
@@ -95,7 +112,7 @@ static real flow_into(const snow_grid *grid, int32_t q, int32_t r)
 static real total_of(const snow_grid *grid, int32_t q, int32_t r, real value, uint32_t additions)
 {
     const reiter *model = reiter_of(grid);
-    double addition = reiter_addition(model, snow_domain_number(&model->hull, q, r));
+    double addition = reiter_addition(model, reference_number(grid, q, r));
     return real_add(value, real_multiply(real_make(addition, 0), real_make(additions, 0)));
 }
 
@@ -166,7 +183,7 @@ static bool is_still(const snow_grid *grid)
             const reference_cell *cell = cell_at(grid, q, r);
             real flow = flow_into(grid, q, r);
             bool gains = cell->receptive && !cell->frozen &&
-                         reiter_addition(model, snow_domain_number(&model->hull, q, r)) > 0;
+                         reiter_addition(model, reference_number(grid, q, r)) > 0;
             if (gains || (!cell->frozen && real_high(flow) != 0))
                 return false;
         }
@@ -231,7 +248,11 @@ static void reference_settle(snow_grid *grid)
 }
 
 const reiter_engine REFERENCE_ENGINE = {
+    .folds = false,
     .create = reference_create,
+    .part = reference_part,
+    .numbers = reference_numbers,
+    .number = reference_number,
     .step = reference_step,
     .get = reference_get,
     .put = reference_put,

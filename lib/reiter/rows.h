@@ -1,5 +1,9 @@
-/* The ROWS engine: vapour in two dense arrays that take turns, everything
-   about ice beside them. */
+/* The ROWS engine: the fundamental part of the plane in two dense arrays of
+   vapour that take turns, everything about ice beside them.
+
+   Rows are stored in whole chunks, a chunk at the same columns in every row.
+   Stored cells that are not of the part are fixed cells, ghosts (images of
+   cells of the part, copied after each step) or padding. */
 #ifndef SNOW_REITER_ROWS_H
 #define SNOW_REITER_ROWS_H
 
@@ -10,69 +14,100 @@ typedef enum cell_state {
     CELL_VAPOUR = 0,
     CELL_FRONT = 1, /* receptive, not frozen */
     CELL_FROZEN = 2,
-    CELL_FIXED = 3
+    CELL_OTHER = 3 /* fixed, ghost or padding */
 } cell_state;
 
 /* Rows that one task computes. Its cells have as much room in `listed` as
    there are of them: the front from `first` up, what has just frozen from
    `end` down. The two never meet, so that a step needs no memory. */
 typedef struct row_block {
-    int32_t first_row; /* of the interior */
+    int32_t first_row; /* of the part */
     int32_t end_row;
-    size_t first;
+    size_t first; /* of the cells, as stored */
     size_t end;
-    size_t front;   /* listed cells of the front, ice at the rim included */
-    size_t fresh;   /* cells that froze in this step */
-    bool collected; /* a cell of the front collected vapour in this step */
+    size_t front;           /* listed cells of the front, ice at the rim included */
+    size_t fresh;           /* cells that froze in this step */
+    size_t first_segment;   /* of what is computed */
+    size_t segments;
+    bool collected;  /* a cell of the front collected vapour in this step */
     bool unstable;   /* a cell is beyond the bound */
     bool overshoots; /* a cell is, perhaps, ice without ice beside it */
 } row_block;
 
-/* Cells are numbered as in the hull. */
+typedef struct ghost_cell {
+    uint32_t to;
+    uint32_t from;
+} ghost_cell;
+
+/* Cells are numbered as stored. */
 typedef struct rows {
     const reiter_kernel *kernel;
+    snow_domain part;
+    size_t count;      /* stored cells */
+    int64_t *offset;   /* cell (q, r) of the part or next to it: offset[r − top + 1] + q */
+    int32_t *first;    /* first stored column of these rows */
     double *vapour[2]; /* 0 where receptive */
     int now;           /* which of the two holds the present step */
+    double fixed;      /* of the fixed cells, where the part is not the whole */
     double *collected; /* of receptive cells: what they had and collected, without additions */
     uint32_t *since;   /* of receptive cells: the step since which they gain, modulo 2^32 */
     unsigned char *state;
     uint32_t *listed;
+    ghost_cell *ghost;
+    size_t ghosts;
     row_block *block;
     size_t blocks;
-    int64_t *offset; /* of row r of the hull: number of (q, r) is offset + q */
+
+    /* Maps of chunks, `words` words for each row of the part: see rows_active.c. */
+    int32_t first_column;
+    size_t words;
+    uint64_t *valid;   /* holds cells of the part */
+    uint64_t *active;  /* may change before the next look */
+    uint64_t *flowing; /* changed in the step of the last look */
+    reiter_segment *segment;
+    bool stale; /* the segments are not those of `active` */
 } rows;
+
+/* Steps between two looks at which chunks change; not more than a chunk has columns. */
+enum { ROWS_LOOK_STEPS = 8 };
 
 static inline rows *rows_of(const snow_grid *grid)
 {
     return reiter_of(grid)->cells;
 }
 
-static inline size_t rows_number(const snow_grid *grid, int32_t q, int32_t r)
+/* Of a cell of the part, or next to it. */
+static inline size_t rows_number(const rows *cells, int32_t q, int32_t r)
 {
-    const reiter *model = reiter_of(grid);
-    return (size_t)(rows_of(grid)->offset[r - model->hull.top] + q);
+    return (size_t)(cells->offset[r - cells->part.top + 1] + q);
 }
 
-/* Whether a neighbour of an interior cell is in a state. */
-static inline bool rows_is_by(const snow_grid *grid, int32_t q, int32_t r, cell_state state)
-{
-    const unsigned char *all = rows_of(grid)->state;
-    const unsigned char *row = all + rows_number(grid, q, r);
-    const unsigned char *above = all + rows_number(grid, q, r - 1);
-    const unsigned char *below = all + rows_number(grid, q, r + 1);
-    return row[-1] == state || row[1] == state || above[0] == state || above[1] == state || below[-1] == state ||
-           below[0] == state;
-}
+/* rows_layout.c */
+snow_status snow_rows_create(snow_grid *grid);
+void snow_rows_destroy(snow_grid *grid);
+/* Whether a neighbour of a cell of the part is fixed. */
+bool snow_rows_touches_fixed(const snow_grid *grid, int32_t q, int32_t r);
+/* Ghosts get the values of the cells that they are images of. */
+void snow_rows_copy_ghosts(const rows *cells, double *vapour);
+
+/* rows_active.c */
+/* Everything is computed until the next look. */
+void snow_rows_wake_all(rows *cells);
+/* A cell has changed otherwise than by flow. */
+void snow_rows_wake(const snow_grid *grid, int32_t q, int32_t r, bool looking);
+/* After a step that looked: what can change until the next. */
+void snow_rows_choose_active(const snow_grid *grid);
+/* Lists the segments of what is active, block by block. */
+void snow_rows_list_segments(rows *cells);
 
 /* rows_front.c */
-
 /* Gives the front cells of a block what has diffused into them, and lists
    those that freeze. */
 void snow_rows_collect(const snow_grid *grid, row_block *block, double *next);
 /* Lists the cells of a block that freeze although no ice is next to them. */
 void snow_rows_overshoot(const snow_grid *grid, row_block *block, const double *next);
 /* Turns the listed cells into ice and their neighbours into the front. */
-bool snow_rows_freeze(snow_grid *grid, double *next);
+bool snow_rows_freeze(snow_grid *grid, double *next, bool looking);
 /* Whether a cell of the front has an addition that will freeze it. */
 bool snow_rows_front_gains(const snow_grid *grid);
 /* Lists the front of every block anew. */

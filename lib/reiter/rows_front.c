@@ -45,12 +45,12 @@ void snow_rows_overshoot(const snow_grid *grid, row_block *block, const double *
     }
 }
 
-/* The row of a cell, by halving. */
-static int32_t row_of(const snow_domain *hull, size_t i, int32_t first, int32_t end)
+/* The row of a stored cell, by halving: 0 is the one above the part. */
+static int32_t row_of(const rows *cells, size_t i, int32_t first, int32_t end)
 {
     while (end - first > 1) {
         int32_t middle = first + (end - first) / 2;
-        if (hull->run[middle].number <= i)
+        if ((size_t)(cells->offset[middle] + cells->first[middle]) <= i)
             first = middle;
         else
             end = middle;
@@ -58,75 +58,70 @@ static int32_t row_of(const snow_domain *hull, size_t i, int32_t first, int32_t 
     return first;
 }
 
-static snow_cell locate(const snow_grid *grid, const row_block *block, size_t i)
+static snow_cell locate(const rows *cells, const row_block *block, size_t i)
 {
-    const snow_domain *hull = &reiter_of(grid)->hull;
-    int32_t row = row_of(hull, i, block->first_row + 1, block->end_row + 1);
-    return (snow_cell){(int32_t)((int64_t)i - rows_of(grid)->offset[row]), hull->top + row};
-}
-
-static row_block *block_of(rows *cells, size_t i)
-{
-    row_block *block = cells->block;
-    while (i >= block->end)
-        block++;
-    return block;
+    int32_t row = row_of(cells, i, block->first_row + 1, block->end_row + 1);
+    return (snow_cell){(int32_t)((int64_t)i - cells->offset[row]), cells->part.top + row - 1};
 }
 
 static void list(rows *cells, size_t i)
 {
-    row_block *block = block_of(cells, i);
+    row_block *block = cells->block;
+    while (i >= block->end)
+        block++;
     cells->listed[block->first + block->front++] = (uint32_t)i;
 }
 
-static void join_front(snow_grid *grid, double *next, size_t i)
+/* What a cell held as vapour it keeps; the place is zero from now on. */
+static void take_vapour(const snow_grid *grid, double *next, snow_cell cell, bool looking)
 {
     rows *cells = rows_of(grid);
-    if (cells->state[i] != CELL_VAPOUR)
-        return;
-    cells->state[i] = CELL_FRONT;
+    size_t i = rows_number(cells, cell.q, cell.r);
     cells->collected[i] = next[i];
     cells->since[i] = (uint32_t)grid->census.steps;
+    if (next[i] != 0)
+        snow_rows_wake(grid, cell.q, cell.r, looking);
     next[i] = 0;
+}
+
+static void join_front(snow_grid *grid, double *next, int32_t q, int32_t r, bool looking)
+{
+    rows *cells = rows_of(grid);
+    if (!snow_domain_has(&grid->domain, q, r))
+        return;
+    snow_cell cell = snow_group_representative(reiter_of(grid)->group, q, r);
+    size_t i = rows_number(cells, cell.q, cell.r);
+    if (cells->state[i] != CELL_VAPOUR)
+        return;
+    take_vapour(grid, next, cell, looking);
+    cells->state[i] = CELL_FRONT;
     list(cells, i);
 }
 
-static void freeze_cell(snow_grid *grid, double *next, snow_cell cell)
+static void freeze_cell(snow_grid *grid, double *next, snow_cell cell, bool looking)
 {
     rows *cells = rows_of(grid);
-    size_t i = rows_number(grid, cell.q, cell.r);
-    if (cells->state[i] == CELL_VAPOUR) {
-        cells->collected[i] = next[i];
-        cells->since[i] = (uint32_t)grid->census.steps;
-        next[i] = 0;
-    }
+    size_t i = rows_number(cells, cell.q, cell.r);
+    if (cells->state[i] == CELL_VAPOUR)
+        take_vapour(grid, next, cell, looking);
     cells->state[i] = CELL_FROZEN;
     snow_reiter_freeze(grid, cell.q, cell.r);
 }
 
-/* Ice at the very rim goes on collecting what the fixed cells give off. */
-static bool touches_fixed(const snow_grid *grid, snow_cell cell)
+static void extend_front(snow_grid *grid, double *next, snow_cell cell, bool looking)
 {
-    return rows_is_by(grid, cell.q, cell.r, CELL_FIXED);
-}
-
-static void extend_front(snow_grid *grid, double *next, snow_cell cell)
-{
-    size_t i = rows_number(grid, cell.q, cell.r);
-    if (touches_fixed(grid, cell))
-        list(rows_of(grid), i);
-    size_t above = rows_number(grid, cell.q, cell.r - 1);
-    size_t below = rows_number(grid, cell.q, cell.r + 1);
-    join_front(grid, next, i - 1);
-    join_front(grid, next, i + 1);
-    join_front(grid, next, above);
-    join_front(grid, next, above + 1);
-    join_front(grid, next, below - 1);
-    join_front(grid, next, below);
+    if (snow_rows_touches_fixed(grid, cell.q, cell.r))
+        list(rows_of(grid), rows_number(rows_of(grid), cell.q, cell.r));
+    join_front(grid, next, cell.q - 1, cell.r, looking);
+    join_front(grid, next, cell.q + 1, cell.r, looking);
+    join_front(grid, next, cell.q, cell.r - 1, looking);
+    join_front(grid, next, cell.q + 1, cell.r - 1, looking);
+    join_front(grid, next, cell.q - 1, cell.r + 1, looking);
+    join_front(grid, next, cell.q, cell.r + 1, looking);
 }
 
 /* All cells freeze before any front grows: a cell that freezes never joins the front. */
-bool snow_rows_freeze(snow_grid *grid, double *next)
+bool snow_rows_freeze(snow_grid *grid, double *next, bool looking)
 {
     const rows *cells = rows_of(grid);
     bool any = false;
@@ -134,12 +129,12 @@ bool snow_rows_freeze(snow_grid *grid, double *next)
         const row_block *block = &cells->block[b];
         any = any || block->fresh > 0;
         for (size_t k = block->end - block->fresh; k < block->end; k++)
-            freeze_cell(grid, next, locate(grid, block, cells->listed[k]));
+            freeze_cell(grid, next, locate(cells, block, cells->listed[k]), looking);
     }
     for (size_t b = 0; b < cells->blocks; b++) {
         const row_block *block = &cells->block[b];
         for (size_t k = block->end - block->fresh; k < block->end; k++)
-            extend_front(grid, next, locate(grid, block, cells->listed[k]));
+            extend_front(grid, next, locate(cells, block, cells->listed[k]), looking);
     }
     return any;
 }
@@ -167,12 +162,13 @@ void snow_rows_list_front(snow_grid *grid)
         block->front = 0;
         block->fresh = 0;
     }
-    const snow_domain *domain = &grid->domain;
-    for (int32_t row = 0; row < domain->rows; row++) {
-        for (int32_t q = domain->run[row].first; q < domain->run[row].end; q++) {
-            snow_cell cell = {q, domain->top + row};
-            size_t i = rows_number(grid, q, cell.r);
-            if (cells->state[i] == CELL_FRONT || (cells->state[i] == CELL_FROZEN && touches_fixed(grid, cell)))
+    const snow_domain *part = &cells->part;
+    for (int32_t row = 0; row < part->rows; row++) {
+        for (int32_t q = part->run[row].first; q < part->run[row].end; q++) {
+            int32_t r = part->top + row;
+            size_t i = rows_number(cells, q, r);
+            if (cells->state[i] == CELL_FRONT ||
+                (cells->state[i] == CELL_FROZEN && snow_rows_touches_fixed(grid, q, r)))
                 list(cells, i);
         }
     }

@@ -29,6 +29,8 @@ static void save_scene(const snow_grid *grid, snow_sink *sink)
     snow_sink_u32(sink, (uint32_t)params->height);
     snow_sink_u32(sink, (uint32_t)params->rim);
     snow_sink_u32(sink, (uint32_t)params->engine);
+    snow_sink_u32(sink, (uint32_t)params->symmetry);
+    snow_sink_u32(sink, model->group);
     snow_sink_u8(sink, params->record_freeze_steps != 0);
     snow_sink_u8(sink, params->allow_unstable != 0);
     snow_sink_u8(sink, model->addition_at != NULL);
@@ -37,16 +39,20 @@ static void save_scene(const snow_grid *grid, snow_sink *sink)
     snow_sink_u64(sink, (uint64_t)grid->census.steps);
 }
 
-static void save_cell(const snow_grid *grid, snow_sink *sink, int32_t q, int32_t r)
+static void save_value(const reiter *model, snow_sink *sink, const reiter_cell *cell)
+{
+    snow_sink_double(sink, cell->value);
+    if (model->engine == &snow_reiter_quad)
+        snow_sink_double(sink, cell->low);
+}
+
+static void save_cell(const snow_grid *grid, snow_sink *sink, snow_cell at)
 {
     const reiter *model = reiter_of(grid);
-    size_t number = snow_domain_number(&model->hull, q, r);
-    reiter_cell cell = model->engine->get(grid, q, r);
-    if (snow_domain_has(&grid->domain, q, r))
-        snow_sink_u8(sink, (uint8_t)kind_of(&cell));
-    snow_sink_double(sink, cell.value);
-    if (model->engine == &snow_reiter_quad)
-        snow_sink_double(sink, cell.low);
+    size_t number = model->engine->number(grid, at.q, at.r);
+    reiter_cell cell = model->engine->get(grid, at.q, at.r);
+    snow_sink_u8(sink, (uint8_t)kind_of(&cell));
+    save_value(model, sink, &cell);
     if (cell.receptive)
         snow_sink_u32(sink, cell.additions);
     if (cell.frozen && model->freeze_step != NULL)
@@ -57,15 +63,19 @@ static void save_cell(const snow_grid *grid, snow_sink *sink, int32_t q, int32_t
 
 void snow_reiter_save(const snow_grid *grid, snow_sink *sink)
 {
-    const snow_domain *hull = &reiter_of(grid)->hull;
+    const reiter *model = reiter_of(grid);
     save_scene(grid, sink);
-    for (int32_t row = 0; row < hull->rows; row++)
-        for (int32_t q = hull->run[row].first; q < hull->run[row].end; q++)
-            save_cell(grid, sink, q, hull->top + row);
+    for (snow_walk walk = reiter_walk_part(grid); snow_walk_next(&walk);)
+        save_cell(grid, sink, walk.cell);
+    for (snow_walk walk = reiter_walk_fixed(grid); snow_walk_next(&walk);) {
+        reiter_cell cell = model->engine->get(grid, walk.cell.q, walk.cell.r);
+        save_value(model, sink, &cell);
+    }
 }
 
 typedef struct saved_scene {
     snow_reiter_params params;
+    snow_group group; /* by which the cells are folded */
     bool own_additions;
     bool still;
     double bound;
@@ -96,6 +106,8 @@ static snow_status load_scene(snow_source *source, saved_scene *scene)
     params->height = (int32_t)snow_source_u32(source);
     params->rim = (snow_reiter_rim)snow_source_u32(source);
     params->engine = (snow_reiter_engine)snow_source_u32(source);
+    params->symmetry = (snow_reiter_symmetry)snow_source_u32(source);
+    scene->group = snow_source_u32(source);
     params->record_freeze_steps = snow_source_u8(source);
     params->allow_unstable = snow_source_u8(source);
     uint8_t own_additions = snow_source_u8(source);
@@ -109,11 +121,12 @@ static snow_status load_scene(snow_source *source, saved_scene *scene)
         return SNOW_ERROR_TRUNCATED;
     int exponent;
     bool sound = own_additions <= 1 && still <= 1 && steps <= UINT64_C(1) << 62 && scene->bound > 0x1p-65 &&
-                 scene->bound < 0x1p11 && frexp(scene->bound, &exponent) == 0.5 &&
+                 scene->bound < 0x1p11 && frexp(scene->bound, &exponent) == 0.5 && snow_group_is_closed(scene->group) &&
                  snow_reiter_params_check(params) == SNOW_OK;
     if (!sound)
         return SNOW_ERROR_DAMAGED;
-    return cells_of(params) <= snow_source_left(source) / LEAST_CELL_SIZE ? SNOW_OK : SNOW_ERROR_TRUNCATED;
+    uint64_t least = cells_of(params) / (uint64_t)snow_group_order(scene->group) * LEAST_CELL_SIZE;
+    return least <= snow_source_left(source) ? SNOW_OK : SNOW_ERROR_TRUNCATED;
 }
 
 static bool is_sound_cell(const saved_scene *scene, const reiter_cell *cell, double addition)
@@ -127,48 +140,108 @@ static bool is_sound_cell(const saved_scene *scene, const reiter_cell *cell, dou
     return fabs(cell->value) <= scene->bound * 1024 && reiter_value(cell, addition) < reiter_threshold();
 }
 
-static snow_status load_cell(snow_grid *grid, snow_source *source, const saved_scene *scene, int32_t q, int32_t r)
+static void load_value(const reiter *model, snow_source *source, reiter_cell *cell)
+{
+    cell->value = snow_source_double(source);
+    if (model->engine == &snow_reiter_quad)
+        cell->low = snow_source_double(source);
+}
+
+/* A cell and what is kept beside it. */
+typedef struct saved_cell {
+    reiter_cell cell;
+    uint32_t freeze_step;
+    double addition;
+} saved_cell;
+
+static void put_images(snow_grid *grid, const saved_scene *scene, const saved_cell *saved, snow_cell at)
 {
     reiter *model = reiter_of(grid);
-    size_t number = snow_domain_number(&model->hull, q, r);
-    uint8_t kind = snow_domain_has(&grid->domain, q, r) ? snow_source_u8(source) : KIND_VAPOUR;
-    reiter_cell cell = {.frozen = kind == KIND_FROZEN, .receptive = kind != KIND_VAPOUR};
-    cell.value = snow_source_double(source);
-    if (model->engine == &snow_reiter_quad)
-        cell.low = snow_source_double(source);
-    if (cell.receptive)
-        cell.additions = snow_source_u32(source);
-    if (cell.frozen && model->freeze_step != NULL)
-        model->freeze_step[number] = snow_source_u32(source);
-    double addition = model->params.addition;
+    snow_cell image[12];
+    size_t images = snow_group_images(scene->group, at.q, at.r, image);
+    images = model->group == scene->group ? 1 : images;
+    for (size_t i = 0; i < images; i++) {
+        snow_cell to = model->group == scene->group ? at : image[i];
+        size_t number = model->engine->number(grid, to.q, to.r);
+        model->engine->put(grid, to.q, to.r, &saved->cell);
+        if (model->freeze_step != NULL)
+            model->freeze_step[number] = saved->freeze_step;
+        if (model->addition_at != NULL)
+            model->addition_at[number] = saved->addition;
+    }
+}
+
+static snow_status load_cell(snow_grid *grid, snow_source *source, const saved_scene *scene, snow_cell at)
+{
+    const reiter *model = reiter_of(grid);
+    uint8_t kind = snow_source_u8(source);
+    saved_cell saved = {
+        .cell = {.frozen = kind == KIND_FROZEN, .receptive = kind != KIND_VAPOUR},
+        .freeze_step = REITER_NEVER,
+        .addition = model->params.addition,
+    };
+    load_value(model, source, &saved.cell);
+    if (saved.cell.receptive)
+        saved.cell.additions = snow_source_u32(source);
+    if (saved.cell.frozen && model->freeze_step != NULL)
+        saved.freeze_step = snow_source_u32(source);
     if (model->addition_at != NULL)
-        addition = model->addition_at[number] = snow_source_double(source);
+        saved.addition = snow_source_double(source);
     if (source->truncated)
         return SNOW_ERROR_TRUNCATED;
-    if (kind > KIND_FROZEN || !is_sound_cell(scene, &cell, addition))
+    if (kind > KIND_FROZEN || !is_sound_cell(scene, &saved.cell, saved.addition))
         return SNOW_ERROR_DAMAGED;
-    model->engine->put(grid, q, r, &cell);
+    put_images(grid, scene, &saved, at);
     return SNOW_OK;
+}
+
+static snow_status load_fixed(snow_grid *grid, snow_source *source, const saved_scene *scene)
+{
+    const reiter *model = reiter_of(grid);
+    for (snow_walk walk = reiter_walk_fixed(grid); snow_walk_next(&walk);) {
+        reiter_cell cell = {.value = 0};
+        load_value(model, source, &cell);
+        if (source->truncated)
+            return SNOW_ERROR_TRUNCATED;
+        if (!is_sound_cell(scene, &cell, 0))
+            return SNOW_ERROR_DAMAGED;
+        model->engine->put(grid, walk.cell.q, walk.cell.r, &cell);
+    }
+    return SNOW_OK;
+}
+
+static snow_status load_part(snow_grid *grid, snow_source *source, const saved_scene *scene)
+{
+    snow_domain part;
+    snow_status status = snow_group_fundamental(scene->group, &grid->domain, &grid->heap, &part);
+    if (status != SNOW_OK)
+        return status;
+    for (snow_walk walk = snow_walk_over(&part, NULL); status == SNOW_OK && snow_walk_next(&walk);)
+        status = load_cell(grid, source, scene, walk.cell);
+    snow_domain_end(&part, &grid->heap);
+    return status;
 }
 
 static snow_status load_cells(snow_grid *grid, snow_source *source, const saved_scene *scene)
 {
     reiter *model = reiter_of(grid);
-    const snow_domain *hull = &model->hull;
+    if ((snow_group_of_domain(&grid->domain) & scene->group) != scene->group)
+        return SNOW_ERROR_DAMAGED;
+    snow_status status = snow_reiter_equip(grid, scene->group);
+    if (status != SNOW_OK)
+        return status;
     grid->census.steps = scene->steps;
     model->bound = scene->bound;
     if (scene->own_additions) {
-        model->addition_at = snow_heap_get(&grid->heap, hull->cells, sizeof *model->addition_at);
+        model->addition_at = snow_heap_get(&grid->heap, model->engine->numbers(grid), sizeof *model->addition_at);
         if (model->addition_at == NULL)
             return grid->heap.refusal;
     }
-    for (int32_t row = 0; row < hull->rows; row++) {
-        for (int32_t q = hull->run[row].first; q < hull->run[row].end; q++) {
-            snow_status status = load_cell(grid, source, scene, q, hull->top + row);
-            if (status != SNOW_OK)
-                return status;
-        }
-    }
+    status = load_part(grid, source, scene);
+    if (status == SNOW_OK)
+        status = load_fixed(grid, source, scene);
+    if (status != SNOW_OK)
+        return status;
     if (!snow_reiter_receptive_are_sound(grid))
         return SNOW_ERROR_DAMAGED;
     model->engine->settle(grid);

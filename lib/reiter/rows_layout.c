@@ -1,0 +1,265 @@
+/* Where the cells of the ROWS engine are stored. */
+#include "reiter/rows.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+static int32_t chunk_floor(int32_t q)
+{
+    int32_t rest = q % REITER_CHUNK;
+    return q - (rest < 0 ? rest + REITER_CHUNK : rest);
+}
+
+static int32_t chunk_ceiling(int32_t q)
+{
+    return chunk_floor(q + REITER_CHUNK - 1);
+}
+
+static const int neighbour_q[6] = {1, -1, 0, 0, 1, -1};
+static const int neighbour_r[6] = {0, 0, 1, -1, -1, 1};
+
+/* Every chunk of the part is computed whole, from all neighbours of its cells. */
+static void stored_columns(const snow_domain *part, int32_t r, int32_t *first, int32_t *end)
+{
+    *first = INT32_MAX;
+    *end = INT32_MIN;
+    for (int32_t from = r - 1; from <= r + 1; from++) {
+        const snow_run_of_cells *run = snow_domain_row(part, from);
+        if (run->first == run->end)
+            continue;
+        int32_t left = chunk_floor(chunk_floor(run->first) - 1);
+        int32_t right = chunk_ceiling(chunk_ceiling(run->end) + 1);
+        *first = left < *first ? left : *first;
+        *end = right > *end ? right : *end;
+    }
+}
+
+static snow_status place_rows(rows *cells, snow_heap *heap)
+{
+    const snow_domain *part = &cells->part;
+    size_t stored_rows = (size_t)part->rows + 2;
+    cells->offset = snow_heap_get(heap, stored_rows, sizeof *cells->offset);
+    cells->first = snow_heap_get(heap, stored_rows + 1, sizeof *cells->first);
+    if (cells->offset == NULL || cells->first == NULL)
+        return heap->refusal;
+    int64_t count = 0;
+    for (int32_t row = 0; row < (int32_t)stored_rows; row++) {
+        int32_t first;
+        int32_t end;
+        stored_columns(part, part->top - 1 + row, &first, &end);
+        cells->first[row] = first;
+        cells->offset[row] = count - first;
+        count += end - first;
+    }
+    cells->count = (size_t)count;
+    return count < UINT32_MAX ? SNOW_OK : SNOW_ERROR_TOO_LARGE;
+}
+
+static snow_status place_cells(rows *cells, snow_heap *heap)
+{
+    size_t count = cells->count;
+    bool complete = (cells->vapour[0] = snow_heap_get(heap, count, sizeof(double))) != NULL &&
+                    (cells->vapour[1] = snow_heap_get(heap, count, sizeof(double))) != NULL &&
+                    (cells->collected = snow_heap_get_raw(heap, count, sizeof(double))) != NULL &&
+                    (cells->since = snow_heap_get_raw(heap, count, sizeof *cells->since)) != NULL &&
+                    (cells->state = snow_heap_get_raw(heap, count, sizeof *cells->state)) != NULL &&
+                    (cells->listed = snow_heap_get_raw(heap, count, sizeof *cells->listed)) != NULL;
+    if (!complete)
+        return heap->refusal;
+    memset(cells->state, CELL_OTHER, count);
+    for (int32_t row = 0; row < cells->part.rows; row++) {
+        const snow_run_of_cells *run = &cells->part.run[row];
+        memset(cells->state + rows_number(cells, run->first, cells->part.top + row), CELL_VAPOUR,
+               (size_t)(run->end - run->first));
+    }
+    return SNOW_OK;
+}
+
+static bool is_ghost(const snow_grid *grid, int64_t q, int64_t r)
+{
+    return snow_domain_has(&grid->domain, q, r) && !snow_domain_has(&rows_of(grid)->part, q, r);
+}
+
+/* Visits each ghost once or several times; counts them, and notes them where there is room. */
+static size_t find_ghosts(const snow_grid *grid, ghost_cell *room)
+{
+    const rows *cells = rows_of(grid);
+    const snow_domain *part = &cells->part;
+    size_t ghosts = 0;
+    for (int32_t row = 0; row < part->rows; row++) {
+        const snow_run_of_cells *run = &part->run[row];
+        int32_t r = part->top + row;
+        for (int32_t q = run->first; q < run->end; q++) {
+            for (int which = 0; which < 6; which++) {
+                int32_t to_q = q + neighbour_q[which];
+                int32_t to_r = r + neighbour_r[which];
+                if (!is_ghost(grid, to_q, to_r))
+                    continue;
+                if (room != NULL) {
+                    snow_cell from = snow_group_representative(reiter_of(grid)->group, to_q, to_r);
+                    room[ghosts] = (ghost_cell){(uint32_t)rows_number(cells, to_q, to_r),
+                                                (uint32_t)rows_number(cells, from.q, from.r)};
+                }
+                ghosts++;
+            }
+        }
+    }
+    return ghosts;
+}
+
+static int compare_ghosts(const void *a, const void *b)
+{
+    uint32_t to_a = ((const ghost_cell *)a)->to;
+    uint32_t to_b = ((const ghost_cell *)b)->to;
+    return (to_a > to_b) - (to_a < to_b);
+}
+
+static snow_status place_ghosts(const snow_grid *grid, snow_heap *heap)
+{
+    rows *cells = rows_of(grid);
+    if (reiter_of(grid)->group == SNOW_GROUP_TRIVIAL)
+        return SNOW_OK;
+    size_t found = find_ghosts(grid, NULL);
+    cells->ghost = snow_heap_get(heap, found, sizeof *cells->ghost);
+    if (cells->ghost == NULL)
+        return heap->refusal;
+    find_ghosts(grid, cells->ghost);
+    qsort(cells->ghost, found, sizeof *cells->ghost, compare_ghosts);
+    for (size_t i = 0; i < found; i++)
+        if (i == 0 || cells->ghost[i].to != cells->ghost[i - 1].to)
+            cells->ghost[cells->ghosts++] = cells->ghost[i];
+    return SNOW_OK;
+}
+
+/* More tasks than threads, of equal size: what is active moves outwards. */
+static size_t count_blocks(const snow_grid *grid, const rows *cells)
+{
+    enum { BLOCKS_PER_THREAD = 4, LEAST_CELLS = 4096 };
+    size_t threads = (size_t)grid->options.threads;
+    size_t blocks = threads > 1 ? threads * BLOCKS_PER_THREAD : 1;
+    size_t most = cells->part.cells / LEAST_CELLS + 1;
+    blocks = blocks < most ? blocks : most;
+    return blocks < (size_t)cells->part.rows ? blocks : (size_t)cells->part.rows;
+}
+
+static void cut_blocks(rows *cells)
+{
+    const snow_domain *part = &cells->part;
+    size_t segments_in_row = cells->words * 32;
+    int32_t row = 0;
+    for (size_t i = 0; i < cells->blocks; i++) {
+        row_block *block = &cells->block[i];
+        uint64_t target = (uint64_t)part->cells * (i + 1) / cells->blocks;
+        int32_t rows_to_leave = (int32_t)(cells->blocks - 1 - i);
+        block->first_row = row;
+        do
+            row++;
+        while (row < part->rows - rows_to_leave && part->run[row].number < target);
+        block->end_row = row;
+        /* Row n of the part is stored row n + 1. */
+        block->first = (size_t)(cells->offset[block->first_row + 1] + cells->first[block->first_row + 1]);
+        block->end = (size_t)(cells->offset[block->end_row + 1] + cells->first[block->end_row + 1]);
+        block->first_segment = (size_t)block->first_row * segments_in_row;
+    }
+}
+
+static snow_status place_blocks(const snow_grid *grid, snow_heap *heap)
+{
+    rows *cells = rows_of(grid);
+    cells->blocks = count_blocks(grid, cells);
+    cells->block = snow_heap_get(heap, cells->blocks, sizeof *cells->block);
+    if (cells->block == NULL)
+        return heap->refusal;
+    cut_blocks(cells);
+    return SNOW_OK;
+}
+
+static snow_status place_maps(rows *cells, snow_heap *heap)
+{
+    const snow_domain *part = &cells->part;
+    cells->first_column = chunk_floor(part->bounds.q);
+    int32_t columns = chunk_ceiling(part->bounds.q + part->bounds.width) - cells->first_column;
+    cells->words = (size_t)(columns / REITER_CHUNK + 63) / 64;
+    size_t size = cells->words * (size_t)part->rows;
+    bool complete = (cells->valid = snow_heap_get(heap, size, sizeof(uint64_t))) != NULL &&
+                    (cells->active = snow_heap_get(heap, size, sizeof(uint64_t))) != NULL &&
+                    (cells->flowing = snow_heap_get(heap, size, sizeof(uint64_t))) != NULL &&
+                    (cells->segment = snow_heap_get_raw(heap, size * 32, sizeof *cells->segment)) != NULL;
+    if (!complete)
+        return heap->refusal;
+    for (int32_t row = 0; row < part->rows; row++) {
+        const snow_run_of_cells *run = &part->run[row];
+        uint64_t *valid = cells->valid + (size_t)row * cells->words;
+        for (int32_t q = chunk_floor(run->first); q < run->end; q += REITER_CHUNK) {
+            size_t chunk = (size_t)(q - cells->first_column) / REITER_CHUNK;
+            valid[chunk / 64] |= UINT64_C(1) << chunk % 64;
+        }
+    }
+    return SNOW_OK;
+}
+
+static snow_status place_part(snow_grid *grid)
+{
+    reiter *model = reiter_of(grid);
+    rows *cells = rows_of(grid);
+    snow_status status = snow_group_fundamental(model->group, &grid->domain, &grid->heap, &cells->part);
+    if (status == SNOW_OK)
+        status = place_rows(cells, &grid->heap);
+    return status;
+}
+
+snow_status snow_rows_create(snow_grid *grid)
+{
+    reiter *model = reiter_of(grid);
+    snow_heap *heap = &grid->heap;
+    model->cells = snow_heap_get(heap, 1, sizeof(rows));
+    if (model->cells == NULL)
+        return heap->refusal;
+    rows *cells = model->cells;
+    snow_status status = place_part(grid);
+    if (status == SNOW_OK)
+        status = place_cells(cells, heap);
+    if (status == SNOW_OK)
+        status = place_ghosts(grid, heap);
+    if (status == SNOW_OK)
+        status = place_maps(cells, heap);
+    if (status == SNOW_OK)
+        status = place_blocks(grid, heap);
+    return status;
+}
+
+void snow_rows_destroy(snow_grid *grid)
+{
+    rows *cells = rows_of(grid);
+    snow_heap *heap = &grid->heap;
+    snow_domain_end(&cells->part, heap);
+    snow_heap_put(heap, cells->offset);
+    snow_heap_put(heap, cells->first);
+    snow_heap_put(heap, cells->vapour[0]);
+    snow_heap_put(heap, cells->vapour[1]);
+    snow_heap_put(heap, cells->collected);
+    snow_heap_put(heap, cells->since);
+    snow_heap_put(heap, cells->state);
+    snow_heap_put(heap, cells->listed);
+    snow_heap_put(heap, cells->ghost);
+    snow_heap_put(heap, cells->block);
+    snow_heap_put(heap, cells->valid);
+    snow_heap_put(heap, cells->active);
+    snow_heap_put(heap, cells->flowing);
+    snow_heap_put(heap, cells->segment);
+    snow_heap_put(heap, cells);
+}
+
+bool snow_rows_touches_fixed(const snow_grid *grid, int32_t q, int32_t r)
+{
+    for (int which = 0; which < 6; which++)
+        if (!snow_domain_has(&grid->domain, q + neighbour_q[which], r + neighbour_r[which]))
+            return true;
+    return false;
+}
+
+void snow_rows_copy_ghosts(const rows *cells, double *vapour)
+{
+    for (size_t i = 0; i < cells->ghosts; i++)
+        vapour[cells->ghost[i].to] = vapour[cells->ghost[i].from];
+}
