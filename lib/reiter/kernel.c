@@ -44,26 +44,53 @@ static inline vector spread(double x)
     return x - (vector){0};
 }
 
-/* sum − 6·centre: exact, hence the same with and without a fused instruction. */
-static inline vector excess(vector sum, vector centre)
+/* x·y + z where x·y is exact: the same with and without a fused instruction. */
+static inline vector combine(vector x, vector y, vector z)
 {
 #if defined(__AVX512F__)
-    return _mm512_fnmadd_pd(centre, _mm512_set1_pd(6), sum);
+    return _mm512_fmadd_pd(x, y, z);
 #elif defined(__AVX2__) && defined(__FMA__)
-    return _mm256_fnmadd_pd(centre, _mm256_set1_pd(6), sum);
+    return _mm256_fmadd_pd(x, y, z);
 #else
-    return sum - 6 * centre;
+    return x * y + z;
 #endif
 }
 
-/* What flows into the cells at i, rounded to the quantum. The sum is exact
-   (doc/reiter.md), so its order is free. */
-static inline vector inflow(const double *row, const double *above, const double *below, vector weight, vector rounder)
+/* x + z, where there are fused instructions on their units: those for plain
+   additions are the ones that the kernel runs out of. */
+static inline vector plus(vector x, vector z, vector one)
 {
-    vector sum = (load(row - 1) + load(row + 1)) + (load_aligned(above) + load(above + 1)) +
-                 (load(below - 1) + load_aligned(below));
-    vector flow = weight * excess(sum, load_aligned(row));
-    return (flow + rounder) - rounder;
+#if defined(__AVX2__) && defined(__FMA__) && !defined(__AVX512F__)
+    return combine(x, one, z);
+#else
+    (void)one;
+    return x + z;
+#endif
+}
+
+/* What stays the same for all cells of a step. */
+typedef struct constants {
+    vector weight;
+    vector rounder;
+    vector minus_six;
+    vector one;
+} constants;
+
+static inline constants constants_of(const reiter_flow *flow)
+{
+    return (constants){spread(flow->weight), spread(flow->rounder), spread(-6), spread(flow->one)};
+}
+
+/* What flows into the cells at row, rounded to the quantum. The sum is exact
+   (doc/reiter.md), so its order is free. */
+static inline vector inflow(const double *row, const double *above, const double *below, vector centre,
+                            const constants *with)
+{
+    vector level = load(row - 1) + load(row + 1);
+    vector up = load_aligned(above) + load(above + 1);
+    vector down = load(below - 1) + load_aligned(below);
+    vector sum = plus(level, combine(centre, with->minus_six, plus(up, down, with->one)), with->one);
+    return (with->weight * sum + with->rounder) - with->rounder;
 }
 
 /* All ones in the lanes of a chunk that a mask names, from lane `first` on. */
@@ -76,26 +103,32 @@ static inline lanes lanes_of(uint8_t mask, int first)
 
 static inline bool any(lanes flags)
 {
+#if defined(__AVX512F__)
+    return _mm512_test_epi64_mask((__m512i)flags, (__m512i)flags) != 0;
+#elif defined(__AVX2__)
+    return !_mm256_testz_si256((__m256i)flags, (__m256i)flags);
+#else
     _Alignas(VECTOR_BYTES) int64_t lane[LANES];
     *(tight_lanes *)lane = flags;
     int64_t all = 0;
     for (int i = 0; i < LANES; i++)
         all |= lane[i];
     return all != 0;
+#endif
 }
 
 /* One chunk, of which the mask names the cells; says whether anything flows. */
 static inline bool border_chunk(const reiter_flow *flow, size_t row, size_t above, size_t below, uint8_t mask)
 {
     const double *vapour = flow->vapour;
-    vector weight = spread(flow->weight);
-    vector rounder = spread(flow->rounder);
+    constants with = constants_of(flow);
     lanes flowing = {0};
     for (int i = 0; i < REITER_CHUNK; i += LANES) {
-        vector flowed = inflow(vapour + row + i, vapour + above + i, vapour + below + i, weight, rounder);
+        vector centre = load_aligned(vapour + row + i);
+        vector flowed = inflow(vapour + row + i, vapour + above + i, vapour + below + i, centre, &with);
         flowed = (vector)((lanes)flowed & lanes_of(mask, i));
         flowing |= flowed != (vector){0};
-        store_aligned(flow->next + row + i, load_aligned(vapour + row + i) + flowed);
+        store_aligned(flow->next + row + i, centre + flowed);
     }
     return any(flowing);
 }
@@ -103,15 +136,15 @@ static inline bool border_chunk(const reiter_flow *flow, size_t row, size_t abov
 /* Whole chunks from the one at `row` on. */
 static inline void inner_chunks(const reiter_flow *flow, size_t row, size_t above, size_t below, size_t chunks)
 {
-    const double *centre = flow->vapour + row;
+    const double *row_cells = flow->vapour + row;
     const double *up = flow->vapour + above;
     const double *down = flow->vapour + below;
     double *next = flow->next + row;
-    vector weight = spread(flow->weight);
-    vector rounder = spread(flow->rounder);
+    constants with = constants_of(flow);
     for (size_t i = 0; i < chunks * REITER_CHUNK; i += LANES) {
-        vector flowed = inflow(centre + i, up + i, down + i, weight, rounder);
-        store_aligned(next + i, load_aligned(centre + i) + flowed);
+        vector vapour = load_aligned(row_cells + i);
+        vector flowed = inflow(row_cells + i, up + i, down + i, vapour, &with);
+        store_aligned(next + i, plus(flowed, vapour, with.one));
     }
 }
 

@@ -26,6 +26,7 @@ typedef struct reiter_flow {
     double *next;
     double weight;  /* α/12 */
     double rounder; /* adding and subtracting it rounds a flow to the quantum */
+    double one;     /* 1, so that the compiler does not know it */
 } reiter_flow;
 
 typedef struct reiter_kernel {

@@ -162,6 +162,7 @@ static void diffuse(const snow_grid *grid, row_block *block)
         .next = next_of(cells),
         .weight = model->params.diffusion / 12,
         .rounder = reiter_rounder(model),
+        .one = 1,
     };
     if (looks(grid))
         cells->kernel->diffuse_and_look(&flow, segments, block->segments, cells->flowing);

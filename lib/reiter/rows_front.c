@@ -6,24 +6,29 @@
 
 /* The vapour of a receptive cell counts as zero, so what the kernel computed
    for it is just what has diffused into it. */
-void snow_rows_collect(const snow_grid *grid, row_block *block, double *next)
+static inline void collect(const snow_grid *grid, row_block *block, double *restrict next, const double *addition_at)
 {
     const reiter *model = reiter_of(grid);
     rows *cells = rows_of(grid);
+    double *restrict held = cells->collected;
+    const uint32_t *since = cells->since;
+    const unsigned char *state = cells->state;
     uint32_t step = (uint32_t)grid->census.steps + 1;
+    const double addition = model->params.addition;
     const double threshold = reiter_threshold();
-    uint32_t *front = cells->listed + block->first;
+    uint32_t *restrict front = cells->listed + block->first;
     size_t left = 0;
     bool collected = false;
     for (size_t k = 0; k < block->front; k++) {
         uint32_t i = front[k];
         double inflow = next[i];
         next[i] = 0;
-        cells->collected[i] += inflow;
-        double value = cells->collected[i] + reiter_addition(model, i) * (step - cells->since[i]);
+        double now = held[i] + inflow;
+        held[i] = now;
+        double value = now + (addition_at != NULL ? addition_at[i] : addition) * (step - since[i]);
         bool open = value < threshold;
-        collected = collected || (open && inflow != 0);
-        if (open || cells->state[i] == CELL_FROZEN) {
+        collected |= open & (inflow != 0);
+        if (open || state[i] == CELL_FROZEN) {
             front[k] = front[left];
             front[left++] = i;
         }
@@ -32,6 +37,15 @@ void snow_rows_collect(const snow_grid *grid, row_block *block, double *next)
     block->front = left;
     block->collected = collected;
     memmove(cells->listed + block->end - block->fresh, front + left, block->fresh * sizeof *front);
+}
+
+void snow_rows_collect(const snow_grid *grid, row_block *block, double *next)
+{
+    const double *addition_at = reiter_of(grid)->addition_at;
+    if (addition_at == NULL)
+        collect(grid, block, next, NULL);
+    else
+        collect(grid, block, next, addition_at);
 }
 
 void snow_rows_overshoot(const snow_grid *grid, row_block *block, const double *next)
