@@ -351,7 +351,8 @@ SNOW_API snow_status snow_symmetry_defect(const snow_grid *grid, double *defect)
  * @brief A fingerprint of the step count and of every cell of the interior.
  *
  * Two grids with the same digest hold the same bits, up to chance collisions
- * (2^−64). It does not depend on engine, threads, instruction set or platform.
+ * (2^−64). It does not depend on threads, instruction set or platform, nor on
+ * the engine, save for those of another precision.
  *
  * @param grid the grid.
  * @param digest receives it.

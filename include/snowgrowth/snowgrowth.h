@@ -11,6 +11,7 @@
 #include <snowgrowth/reiter.h>
 #include <snowgrowth/render.h>
 #include <snowgrowth/status.h>
+#include <snowgrowth/sweep.h>
 #include <snowgrowth/version.h>
 
 #endif

@@ -14,7 +14,7 @@ enum { LOOKS_BEFORE_SLEEP = 4000, LOOKS_BEFORE_YIELD = 2000 };
    one word, so that a helper that comes late can never take a task of another
    loop than the one it saw. */
 enum { TASK_BITS = 20 };
-#define TASK_MASK ((UINT64_C(1) << TASK_BITS) - 1)
+#define TASK_MASK SNOW_TEAM_MOST_TASKS
 
 struct snow_team {
     _Atomic uint64_t ticket;

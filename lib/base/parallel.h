@@ -8,6 +8,9 @@
 
 typedef struct snow_team snow_team;
 
+/* A loop with more tasks is not shared out. */
+#define SNOW_TEAM_MOST_TASKS ((UINT64_C(1) << 20) - 1)
+
 /* Starts threads − 1 helpers that wait for work. */
 snow_status snow_team_start(snow_team **team, snow_heap *heap, int threads);
 void snow_team_end(snow_team *team, snow_heap *heap);

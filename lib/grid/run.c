@@ -2,6 +2,7 @@
 #include "base/floating.h"
 #include "base/model.h"
 #include "base/structs.h"
+#include "grid/stop.h"
 
 #include <math.h>
 #include <time.h>
@@ -144,7 +145,7 @@ static snow_status check_stop(const snow_stop *stop)
     return SNOW_OK;
 }
 
-static snow_status read_stop(const snow_stop *caller, snow_stop *stop)
+snow_status snow_stop_read(const snow_stop *caller, snow_stop *stop)
 {
     *stop = stop_defaults;
     if (caller == NULL)
@@ -163,7 +164,7 @@ snow_status snow_run(snow_grid *grid, const snow_stop *caller_stop, snow_summary
     if (grid->busy)
         return SNOW_ERROR_BUSY;
     snow_stop stop;
-    snow_status status = read_stop(caller_stop, &stop);
+    snow_status status = snow_stop_read(caller_stop, &stop);
     if (status == SNOW_OK && caller_summary != NULL)
         status = snow_struct_check(caller_summary, sizeof(snow_summary), sizeof(snow_summary));
     if (status != SNOW_OK)
