@@ -63,18 +63,19 @@ typedef struct snow_walk {
     const snow_domain *without; /* may be NULL */
     int32_t row;
     int32_t q;
+    size_t most; /* cells that are left to be visited, at most */
     snow_cell cell;
 } snow_walk;
 
 static inline snow_walk snow_walk_over(const snow_domain *domain, const snow_domain *without)
 {
-    return (snow_walk){.domain = domain, .without = without, .row = 0, .q = domain->run[0].first};
+    return (snow_walk){.domain = domain, .without = without, .q = domain->run[0].first, .most = SIZE_MAX};
 }
 
 static inline bool snow_walk_next(snow_walk *walk)
 {
     const snow_domain *domain = walk->domain;
-    while (walk->row < domain->rows) {
+    while (walk->row < domain->rows && walk->most > 0) {
         int32_t r = domain->top + walk->row;
         if (walk->q >= domain->run[walk->row].end) {
             if (++walk->row < domain->rows)
@@ -83,6 +84,7 @@ static inline bool snow_walk_next(snow_walk *walk)
             walk->q = snow_domain_row(walk->without, r)->end;
         } else {
             walk->cell = (snow_cell){walk->q++, r};
+            walk->most--;
             return true;
         }
     }

@@ -122,15 +122,19 @@ snow_status snow_reiter_conditions_check(double background, double addition, dou
 /* scene.c: fills the engine with the start of the scene. */
 snow_status snow_reiter_scene(snow_grid *grid, const snow_reiter_params *params);
 
-/* The cells that the engine keeps, and the fixed cells round the interior. */
+/* The interior cells that the engine keeps. */
 static inline snow_walk reiter_walk_part(const snow_grid *grid)
 {
     return snow_walk_over(reiter_of(grid)->engine->part(grid), NULL);
 }
 
+/* The fixed cells that the engine keeps: one for all where it folds, for they are alike. */
 static inline snow_walk reiter_walk_fixed(const snow_grid *grid)
 {
-    return snow_walk_over(&reiter_of(grid)->hull, &grid->domain);
+    snow_walk walk = snow_walk_over(&reiter_of(grid)->hull, &grid->domain);
+    if (reiter_of(grid)->group != SNOW_GROUP_TRIVIAL)
+        walk.most = 1;
+    return walk;
 }
 
 /* create.c: a grid with its domain and hull. */

@@ -147,51 +147,25 @@ static void load_value(const reiter *model, snow_source *source, reiter_cell *ce
         cell->low = snow_source_double(source);
 }
 
-/* A cell and what is kept beside it. */
-typedef struct saved_cell {
-    reiter_cell cell;
-    uint32_t freeze_step;
-    double addition;
-} saved_cell;
-
-static void put_images(snow_grid *grid, const saved_scene *scene, const saved_cell *saved, snow_cell at)
-{
-    reiter *model = reiter_of(grid);
-    snow_cell image[12];
-    size_t images = snow_group_images(scene->group, at.q, at.r, image);
-    images = model->group == scene->group ? 1 : images;
-    for (size_t i = 0; i < images; i++) {
-        snow_cell to = model->group == scene->group ? at : image[i];
-        size_t number = model->engine->number(grid, to.q, to.r);
-        model->engine->put(grid, to.q, to.r, &saved->cell);
-        if (model->freeze_step != NULL)
-            model->freeze_step[number] = saved->freeze_step;
-        if (model->addition_at != NULL)
-            model->addition_at[number] = saved->addition;
-    }
-}
-
 static snow_status load_cell(snow_grid *grid, snow_source *source, const saved_scene *scene, snow_cell at)
 {
-    const reiter *model = reiter_of(grid);
+    reiter *model = reiter_of(grid);
+    size_t number = model->engine->number(grid, at.q, at.r);
     uint8_t kind = snow_source_u8(source);
-    saved_cell saved = {
-        .cell = {.frozen = kind == KIND_FROZEN, .receptive = kind != KIND_VAPOUR},
-        .freeze_step = REITER_NEVER,
-        .addition = model->params.addition,
-    };
-    load_value(model, source, &saved.cell);
-    if (saved.cell.receptive)
-        saved.cell.additions = snow_source_u32(source);
-    if (saved.cell.frozen && model->freeze_step != NULL)
-        saved.freeze_step = snow_source_u32(source);
+    reiter_cell cell = {.frozen = kind == KIND_FROZEN, .receptive = kind != KIND_VAPOUR};
+    load_value(model, source, &cell);
+    if (cell.receptive)
+        cell.additions = snow_source_u32(source);
+    if (cell.frozen && model->freeze_step != NULL)
+        model->freeze_step[number] = snow_source_u32(source);
+    double addition = model->params.addition;
     if (model->addition_at != NULL)
-        saved.addition = snow_source_double(source);
+        addition = model->addition_at[number] = snow_source_double(source);
     if (source->truncated)
         return SNOW_ERROR_TRUNCATED;
-    if (kind > KIND_FROZEN || !is_sound_cell(scene, &saved.cell, saved.addition))
+    if (kind > KIND_FROZEN || !is_sound_cell(scene, &cell, addition))
         return SNOW_ERROR_DAMAGED;
-    put_images(grid, scene, &saved, at);
+    model->engine->put(grid, at.q, at.r, &cell);
     return SNOW_OK;
 }
 
@@ -212,14 +186,12 @@ static snow_status load_fixed(snow_grid *grid, snow_source *source, const saved_
 
 static snow_status load_part(snow_grid *grid, snow_source *source, const saved_scene *scene)
 {
-    snow_domain part;
-    snow_status status = snow_group_fundamental(scene->group, &grid->domain, &grid->heap, &part);
-    if (status != SNOW_OK)
-        return status;
-    for (snow_walk walk = snow_walk_over(&part, NULL); status == SNOW_OK && snow_walk_next(&walk);)
-        status = load_cell(grid, source, scene, walk.cell);
-    snow_domain_end(&part, &grid->heap);
-    return status;
+    for (snow_walk walk = reiter_walk_part(grid); snow_walk_next(&walk);) {
+        snow_status status = load_cell(grid, source, scene, walk.cell);
+        if (status != SNOW_OK)
+            return status;
+    }
+    return SNOW_OK;
 }
 
 static snow_status load_cells(snow_grid *grid, snow_source *source, const saved_scene *scene)
@@ -230,6 +202,8 @@ static snow_status load_cells(snow_grid *grid, snow_source *source, const saved_
     snow_status status = snow_reiter_equip(grid, scene->group);
     if (status != SNOW_OK)
         return status;
+    if (model->group != scene->group)
+        return SNOW_ERROR_DAMAGED;
     grid->census.steps = scene->steps;
     model->bound = scene->bound;
     if (scene->own_additions) {
