@@ -79,7 +79,7 @@ typedef enum snow_stop_reason {
     SNOW_STOP_RIM = 2,       /**< Ice came within reach of the domain's rim, as the model defines it. */
     SNOW_STOP_RADIUS = 3,    /**< The tip radius reached tip_radius. */
     SNOW_STOP_FROZEN = 4,    /**< The number of frozen cells reached frozen. */
-    SNOW_STOP_STILL = 5,     /**< No cell can ever freeze again. */
+    SNOW_STOP_STILL = 5,     /**< No cell will freeze again, not in 2^40 steps. */
     SNOW_STOP_TIME = 6,      /**< The wall-clock budget was spent. */
     SNOW_STOP_CANCELLED = 7, /**< The progress callback asked for it. */
     SNOW_STOP_UNSTABLE = 8   /**< The field grew without bound; the call returns ::SNOW_ERROR_UNSTABLE. */
@@ -134,7 +134,7 @@ typedef struct snow_stop {
     size_t struct_size;     /**< Set by snow_stop_init(). */
     int64_t max_steps;      /**< Ends when the grid's step count is at least this; 10,000 by default, −1: no limit. */
     int32_t rim;            /**< 1 (default): ends when ice is within reach of the rim. */
-    int32_t still;          /**< 1 (default): ends when no cell can ever freeze again. */
+    int32_t still;          /**< 1 (default): ends when no cell will freeze again. */
     double tip_radius;      /**< Ends when the tip radius is at least this; 0: no limit. */
     uint64_t frozen;        /**< Ends when at least so many cells are frozen; 0: no limit. */
     double seconds;         /**< Ends after this much wall-clock time; 0: no limit. */

@@ -24,10 +24,13 @@ extern "C" {
  * @param context the caller's own pointer.
  * @param index which grid, from 0.
  * @param options to be handed to the grid's create call.
+ * @param stop when the grid's run ends: that of the sweep, and may be changed
+ *        for this grid.
  * @param grid receives the grid; the sweep destroys it.
  * @return the create call's status.
  */
-typedef snow_status (*snow_sweep_create)(void *context, size_t index, const snow_options *options, snow_grid **grid);
+typedef snow_status (*snow_sweep_create)(void *context, size_t index, const snow_options *options, snow_stop *stop,
+                                         snow_grid **grid);
 
 /**
  * @brief Takes one result, as soon as its run has ended. Called on the thread
@@ -46,8 +49,7 @@ typedef int (*snow_sweep_result)(void *context, size_t index, snow_status status
  * @brief Creates, runs and delivers grids until all are done or the sweep is cancelled.
  *
  * options->threads grids run at a time, each on one thread; the bits of a
- * result do not depend on it. When a result or the progress callback of `stop`
- * cancels, no further grid is started, and those that run are delivered as
+ * result do not depend on it. When a result or a progress callback cancels, no further grid is started, and those that run are delivered as
  * they stand, with ::SNOW_STOP_CANCELLED, at their next progress step. The
  * callbacks and the caller's allocator are called from several threads.
  *

@@ -19,7 +19,7 @@ typedef struct snow_census {
     int64_t tip_square; /* greatest squared distance from the origin; −1: nothing frozen */
     int32_t least_q, greatest_q, least_r, greatest_r;
     bool rim;   /* ice is within reach of the rim */
-    bool still; /* no cell can ever freeze again; looked for in step 1 and in each 64th */
+    bool still; /* no cell will freeze again; looked for in step 1 and in each 64th */
 } snow_census;
 
 /* Whether `still` is looked for in the step that leads to this step count. */

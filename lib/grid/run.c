@@ -99,30 +99,32 @@ static snow_stop_reason crystal_stops(const snow_grid *grid, const snow_stop *st
     return SNOW_STOP_NONE;
 }
 
-static bool is_cancelled(snow_grid *grid, const snow_stop *stop, double started)
+/* The callback runs in the caller's own floating-point state. */
+static bool is_cancelled(snow_grid *grid, const snow_stop *stop, double started, const snow_floating *floating)
 {
     if (stop->progress == NULL || grid->census.steps % stop->progress_steps != 0)
         return false;
     snow_summary summary = summarise(grid, SNOW_STOP_NONE, started);
+    snow_floating again;
+    snow_floating_leave(floating);
     grid->busy = true;
     int answer = stop->progress(stop->progress_context, grid, &summary);
     grid->busy = false;
+    snow_floating_enter(&again);
     return answer != 0;
 }
 
-static snow_status run(snow_grid *grid, const snow_stop *stop, double started, snow_stop_reason *reason)
+static snow_status run(snow_grid *grid, const snow_stop *stop, double started, const snow_floating *floating,
+                       snow_stop_reason *reason)
 {
     for (*reason = crystal_stops(grid, stop); *reason == SNOW_STOP_NONE;) {
-        snow_floating floating;
-        snow_floating_enter(&floating);
         snow_status status = take_step(grid);
-        snow_floating_leave(&floating);
         if (status != SNOW_OK) {
             *reason = SNOW_STOP_UNSTABLE;
             return status;
         }
         *reason = crystal_stops(grid, stop);
-        if (is_cancelled(grid, stop, started) && *reason == SNOW_STOP_NONE)
+        if (is_cancelled(grid, stop, started, floating) && *reason == SNOW_STOP_NONE)
             *reason = SNOW_STOP_CANCELLED;
         if (*reason == SNOW_STOP_NONE && stop->seconds > 0 && now() - started >= stop->seconds)
             *reason = SNOW_STOP_TIME;
@@ -170,12 +172,14 @@ snow_status snow_run(snow_grid *grid, const snow_stop *caller_stop, snow_summary
     if (status != SNOW_OK)
         return status;
 
+    snow_floating floating;
+    snow_floating_enter(&floating);
     double started = now();
     snow_stop_reason reason;
-    status = run(grid, &stop, started, &reason);
-    if (caller_summary != NULL && (status == SNOW_OK || status == SNOW_ERROR_UNSTABLE)) {
-        snow_summary summary = summarise(grid, reason, started);
+    status = run(grid, &stop, started, &floating, &reason);
+    snow_summary summary = summarise(grid, reason, started);
+    snow_floating_leave(&floating);
+    if (caller_summary != NULL && (status == SNOW_OK || status == SNOW_ERROR_UNSTABLE))
         snow_struct_write(caller_summary, &summary, sizeof summary);
-    }
     return status;
 }

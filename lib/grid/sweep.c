@@ -16,13 +16,28 @@ typedef struct sweep {
     atomic_bool cancelled;
 } sweep;
 
+/* One run, with the caller's own progress callback. */
+typedef struct watched_run {
+    sweep *all;
+    snow_progress progress;
+    void *progress_context;
+} watched_run;
+
 /* Stands in for the caller's progress callback, so that a cancelled sweep ends soon. */
 static int watch(void *context, const snow_grid *grid, const snow_summary *summary)
 {
-    sweep *all = context;
-    if (all->stop->progress != NULL && all->stop->progress(all->stop->progress_context, grid, summary) != 0)
-        atomic_store(&all->cancelled, true);
-    return atomic_load(&all->cancelled);
+    const watched_run *run = context;
+    if (run->progress != NULL && run->progress(run->progress_context, grid, summary) != 0)
+        atomic_store(&run->all->cancelled, true);
+    return atomic_load(&run->all->cancelled);
+}
+
+static snow_status run_watched(sweep *all, snow_grid *grid, snow_stop stop, snow_summary *summary)
+{
+    watched_run run = {all, stop.progress, stop.progress_context};
+    stop.progress = watch;
+    stop.progress_context = &run;
+    return snow_run(grid, &stop, summary);
 }
 
 static void run_one(void *argument, size_t index)
@@ -33,12 +48,10 @@ static void run_one(void *argument, size_t index)
     snow_summary summary;
     snow_summary_init(&summary, sizeof summary);
     snow_stop stop = *all->stop;
-    stop.progress = watch;
-    stop.progress_context = all;
     snow_grid *grid = NULL;
-    snow_status status = all->create(all->context, index, &all->options, &grid);
+    snow_status status = all->create(all->context, index, &all->options, &stop, &grid);
     if (status == SNOW_OK)
-        status = snow_run(grid, &stop, &summary);
+        status = run_watched(all, grid, stop, &summary);
     if (all->result(all->context, index, status, grid, &summary) != 0)
         atomic_store(&all->cancelled, true);
     snow_destroy(grid);

@@ -10,7 +10,7 @@ enum { REACH = 2, REPORT_FRACTION = 35 };
 static bool is_near_rim(const snow_grid *grid, int32_t q, int32_t r)
 {
     const snow_reiter_params *params = &reiter_of(grid)->params;
-    int64_t reach = params->radius - REACH;
+    int64_t reach = (int64_t)params->radius - REACH;
     int32_t row = r - grid->domain.top;
     const snow_run_of_cells *run = &grid->domain.run[row];
     switch (params->domain) {

@@ -173,29 +173,12 @@ static snow_status put_addition(snow_grid *grid, int32_t q, int32_t r, double va
     return SNOW_OK;
 }
 
-/* From here on each cell has its own addition; those gained so far are merged. */
-static snow_status give_own_additions(snow_grid *grid)
-{
-    reiter *model = reiter_of(grid);
-    if (model->addition_at == NULL) {
-        size_t numbers = model->engine->numbers(grid);
-        double *addition_at = snow_heap_get_raw(&grid->heap, numbers, sizeof *addition_at);
-        if (addition_at == NULL)
-            return grid->heap.refusal;
-        for (size_t i = 0; i < numbers; i++)
-            addition_at[i] = model->params.addition;
-        model->addition_at = addition_at;
-    }
-    snow_reiter_merge_additions(grid);
-    return SNOW_OK;
-}
-
 static snow_status set_values(snow_grid *grid, const snow_domain *domain, const snow_rect *rect, const double *values,
                               cell_visitor check, cell_visitor put)
 {
     snow_status status = visit(grid, domain, rect, values, check);
     if (status == SNOW_OK)
-        status = snow_reiter_unfold(grid);
+        status = snow_reiter_unfold(grid, false);
     if (status != SNOW_OK)
         return status;
     visit(grid, domain, rect, values, put);
@@ -205,18 +188,18 @@ static snow_status set_values(snow_grid *grid, const snow_domain *domain, const 
     return SNOW_OK;
 }
 
+/* What was gained so far is merged before the gains change. */
 static snow_status set_additions(snow_grid *grid, const snow_rect *rect, const double *values)
 {
     snow_status status = visit(grid, &grid->domain, rect, values, check_addition);
     if (status == SNOW_OK)
-        status = snow_reiter_unfold(grid);
-    if (status == SNOW_OK)
-        status = give_own_additions(grid);
-    if (status == SNOW_OK)
-        status = visit(grid, &grid->domain, rect, values, put_addition);
-    if (status == SNOW_OK)
-        grid->census.still = false;
-    return status;
+        status = snow_reiter_unfold(grid, true);
+    if (status != SNOW_OK)
+        return status;
+    snow_reiter_merge_additions(grid);
+    visit(grid, &grid->domain, rect, values, put_addition);
+    grid->census.still = false;
+    return SNOW_OK;
 }
 
 snow_status snow_reiter_set(snow_grid *grid, snow_field field, const snow_rect *rect, const double *values)

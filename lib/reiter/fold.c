@@ -77,14 +77,29 @@ static void copy_cell(snow_grid *grid, keeping *folded, snow_cell at)
         model->freeze_step[model->engine->number(grid, at.q, at.r)] = folded->freeze_step[from];
 }
 
+static snow_status give_own_additions(snow_grid *grid)
+{
+    reiter *model = reiter_of(grid);
+    size_t numbers = model->engine->numbers(grid);
+    double *addition_at = snow_heap_get_raw(&grid->heap, numbers, sizeof *addition_at);
+    if (addition_at == NULL)
+        return grid->heap.refusal;
+    for (size_t i = 0; i < numbers; i++)
+        addition_at[i] = model->params.addition;
+    model->addition_at = addition_at;
+    return SNOW_OK;
+}
+
 /* A folded scene has no additions that differ from cell to cell. */
-snow_status snow_reiter_unfold(snow_grid *grid)
+snow_status snow_reiter_unfold(snow_grid *grid, bool own_additions)
 {
     reiter *model = reiter_of(grid);
     if (model->group == SNOW_GROUP_TRIVIAL)
-        return SNOW_OK;
+        return own_additions && model->addition_at == NULL ? give_own_additions(grid) : SNOW_OK;
     keeping folded = exchange(model, (keeping){.group = SNOW_GROUP_TRIVIAL});
     snow_status status = snow_reiter_equip(grid, SNOW_GROUP_TRIVIAL);
+    if (status == SNOW_OK && own_additions)
+        status = give_own_additions(grid);
     if (status != SNOW_OK) {
         discard(grid);
         exchange(model, folded);

@@ -65,6 +65,10 @@ typedef struct reiter {
    of this, so that 32 bits are enough for their number. */
 #define REITER_MERGE_STEPS (INT64_C(1) << 31)
 
+/* A cell that would need more steps than this to freeze counts as one that
+   never will: a starved pocket can lose a quantum a step for ever. */
+#define REITER_STILL_STEPS 0x1p40
+
 static inline reiter *reiter_of(const snow_grid *grid)
 {
     return grid->state;
@@ -145,8 +149,9 @@ snow_status snow_reiter_equip(snow_grid *grid, snow_group group);
 /* fold.c */
 /* The symmetries that a set of frozen cells has; sorts the cells. */
 snow_group snow_reiter_group_of_seeds(snow_cell *seeds, size_t count);
-/* From here on every cell is kept by itself. On failure nothing has changed. */
-snow_status snow_reiter_unfold(snow_grid *grid);
+/* From here on every cell is kept by itself, and, if wanted, has its own
+   addition. On failure nothing has changed. */
+snow_status snow_reiter_unfold(snow_grid *grid, bool own_additions);
 
 /* cells.c */
 void snow_reiter_freeze(snow_grid *grid, int32_t q, int32_t r);

@@ -172,22 +172,28 @@ static void find_receptive(snow_grid *grid, int32_t q, int32_t r)
     cell->receptive = receptive;
 }
 
-/* Nothing moves, and no cell that could freeze gains anything. */
+/* Whether a cell changes in a way that may end in ice. */
+static bool moves(const snow_grid *grid, int32_t q, int32_t r)
+{
+    const reference_cell *cell = cell_at(grid, q, r);
+    real flow = flow_into(grid, q, r);
+    if (cell->frozen)
+        return false;
+    if (!cell->receptive)
+        return real_high(flow) != 0;
+    uint32_t additions = (uint32_t)grid->census.steps + 1 - cell->since;
+    double total = real_high(total_of(grid, q, r, real_add(cell->value, flow), additions));
+    return reiter_addition(reiter_of(grid), reference_number(grid, q, r)) > 0 ||
+           real_high(flow) * REITER_STILL_STEPS >= reiter_threshold() - total;
+}
+
 static bool is_still(const snow_grid *grid)
 {
-    const reiter *model = reiter_of(grid);
     const snow_domain *domain = &grid->domain;
-    for (int32_t row = 0; row < domain->rows; row++) {
-        for (int32_t q = domain->run[row].first; q < domain->run[row].end; q++) {
-            int32_t r = domain->top + row;
-            const reference_cell *cell = cell_at(grid, q, r);
-            real flow = flow_into(grid, q, r);
-            bool gains = cell->receptive && !cell->frozen &&
-                         reiter_addition(model, reference_number(grid, q, r)) > 0;
-            if (gains || (!cell->frozen && real_high(flow) != 0))
+    for (int32_t row = 0; row < domain->rows; row++)
+        for (int32_t q = domain->run[row].first; q < domain->run[row].end; q++)
+            if (moves(grid, q, domain->top + row))
                 return false;
-        }
-    }
     return true;
 }
 

@@ -29,7 +29,7 @@ typedef struct row_block {
     size_t fresh;           /* cells that froze in this step */
     size_t first_segment;   /* of what is computed */
     size_t segments;
-    bool collected;  /* a cell of the front collected vapour in this step */
+    bool collected;  /* a cell of the front collected enough to freeze one day */
     bool unstable;   /* a cell is beyond the bound */
     bool overshoots; /* a cell is, perhaps, ice without ice beside it */
 } row_block;

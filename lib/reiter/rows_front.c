@@ -27,7 +27,7 @@ static inline void collect(const snow_grid *grid, row_block *block, double *rest
         held[i] = now;
         double value = now + (addition_at != NULL ? addition_at[i] : addition) * (step - since[i]);
         bool open = value < threshold;
-        collected |= open & (inflow != 0);
+        collected |= open & (inflow * REITER_STILL_STEPS >= threshold - value);
         if (open || state[i] == CELL_FROZEN) {
             front[k] = front[left];
             front[left++] = i;

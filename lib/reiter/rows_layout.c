@@ -142,11 +142,18 @@ static size_t count_blocks(const snow_grid *grid, const rows *cells)
     return blocks < (size_t)cells->part.rows ? blocks : (size_t)cells->part.rows;
 }
 
+/* In a row: every second chunk, and none goes from one word to the next. */
+static size_t most_segments(const rows *cells, int32_t row)
+{
+    const snow_run_of_cells *run = &cells->part.run[row];
+    return (size_t)(run->end - run->first) / (2 * REITER_CHUNK) + 2 + cells->words;
+}
+
 static void cut_blocks(rows *cells)
 {
     const snow_domain *part = &cells->part;
-    size_t segments_in_row = cells->words * 32;
     int32_t row = 0;
+    size_t segments = 0;
     for (size_t i = 0; i < cells->blocks; i++) {
         row_block *block = &cells->block[i];
         uint64_t target = (uint64_t)part->cells * (i + 1) / cells->blocks;
@@ -159,7 +166,9 @@ static void cut_blocks(rows *cells)
         /* Row n of the part is stored row n + 1. */
         block->first = (size_t)(cells->offset[block->first_row + 1] + cells->first[block->first_row + 1]);
         block->end = (size_t)(cells->offset[block->end_row + 1] + cells->first[block->end_row + 1]);
-        block->first_segment = (size_t)block->first_row * segments_in_row;
+        block->first_segment = segments;
+        for (int32_t own = block->first_row; own < block->end_row; own++)
+            segments += most_segments(cells, own);
     }
 }
 
@@ -181,10 +190,13 @@ static snow_status place_maps(rows *cells, snow_heap *heap)
     int32_t columns = chunk_ceiling(part->bounds.q + part->bounds.width) - cells->first_column;
     cells->words = (size_t)(columns / REITER_CHUNK + 63) / 64;
     size_t size = cells->words * (size_t)part->rows;
+    size_t segments = 0;
+    for (int32_t row = 0; row < part->rows; row++)
+        segments += most_segments(cells, row);
     bool complete = (cells->valid = snow_heap_get(heap, size, sizeof(uint64_t))) != NULL &&
                     (cells->active = snow_heap_get(heap, size, sizeof(uint64_t))) != NULL &&
                     (cells->flowing = snow_heap_get(heap, size, sizeof(uint64_t))) != NULL &&
-                    (cells->segment = snow_heap_get_raw(heap, size * 32, sizeof *cells->segment)) != NULL;
+                    (cells->segment = snow_heap_get_raw(heap, segments, sizeof *cells->segment)) != NULL;
     if (!complete)
         return heap->refusal;
     for (int32_t row = 0; row < part->rows; row++) {

@@ -1,0 +1,13 @@
+/* Time, and the middle of several measurements. */
+#ifndef BENCH_TIMING_H
+#define BENCH_TIMING_H
+
+#include <stddef.h>
+
+/* Seconds of a clock that only runs forwards. */
+double timing_now(void);
+
+/* Sorts the values, at least one, and returns their median. */
+double timing_median(double *values, size_t count);
+
+#endif

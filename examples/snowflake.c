@@ -1,0 +1,160 @@
+/* One crystal, from a command line to a picture. */
+#include "common/message.h"
+#include "common/output.h"
+#include "common/png.h"
+#include "common/progress.h"
+#include "common/scene.h"
+
+#include <errno.h>
+#include <stdio.h>
+#include <string.h>
+
+typedef struct files {
+    const char *out;
+    const char *save;
+    const char *load;
+} files;
+
+static int list_presets(void)
+{
+    for (size_t i = 0; snow_reiter_preset_name(i); i++)
+        printf("%-16s %s\n", snow_reiter_preset_name(i), snow_reiter_preset_source(i));
+    return print_line("%s", "");
+}
+
+static int read_bytes(void *file, void *bytes, size_t size, size_t *got)
+{
+    *got = fread(bytes, 1, size, file);
+    return ferror((FILE *)file);
+}
+
+static int write_bytes(void *file, const void *bytes, size_t size)
+{
+    return fwrite(bytes, 1, size, file) != size;
+}
+
+static int load(const char *name, const snow_options *options, snow_grid **grid)
+{
+    FILE *file = fopen(name, "rb");
+    if (file == NULL) {
+        complain("--load: %s: %s", name, strerror(errno));
+        return EXIT_WRONG;
+    }
+    snow_status status = snow_load_from(read_bytes, file, options, grid);
+    fclose(file);
+    return status == SNOW_OK ? EXIT_DONE : complain_status(name, status);
+}
+
+static int save(const snow_grid *grid, output *file)
+{
+    if (file->name == NULL)
+        return EXIT_DONE;
+    errno = 0;
+    if (snow_save_to(grid, write_bytes, file->file) != SNOW_OK) {
+        output_complain(file);
+        return EXIT_FAILED;
+    }
+    return output_commit(file) ? EXIT_DONE : EXIT_FAILED;
+}
+
+static int draw(const snow_grid *grid, const look *appearance, output *file)
+{
+    if (file->name == NULL)
+        return EXIT_DONE;
+    snow_view view;
+    picture image;
+    snow_status status = look_view(appearance, grid, &view);
+    if (status == SNOW_OK)
+        status = picture_of_grid(&image, grid, &view);
+    if (status != SNOW_OK)
+        return complain_status("the picture", status);
+    bool written = png_write(file, &image);
+    picture_destroy(&image);
+    return written ? EXIT_DONE : EXIT_FAILED;
+}
+
+/* The grid stands; grows it and keeps what was done. */
+static int grow(snow_grid *grid, const scene *it, const look *appearance, output *picture_file, output *save_file)
+{
+    snow_summary summary;
+    int exit_code = scene_run(grid, &it->stop, &summary);
+    progress_clear();
+    if (exit_code == EXIT_DONE)
+        exit_code = save(grid, save_file);
+    if (exit_code == EXIT_DONE)
+        exit_code = draw(grid, appearance, picture_file);
+    if (exit_code == EXIT_DONE)
+        exit_code = print_line("steps=%lld frozen=%llu tip=%.6g reason=%s\n", (long long)summary.steps,
+                               (unsigned long long)summary.frozen, summary.tip_radius,
+                               snow_stop_name(summary.reason));
+    return exit_code;
+}
+
+static int grow_into_files(snow_grid *grid, const scene *it, const look *appearance, const files *names)
+{
+    output picture_file;
+    output save_file;
+    int exit_code = EXIT_FAILED;
+    if (!output_open(&picture_file, names->out))
+        return EXIT_FAILED;
+    if (output_open(&save_file, names->save)) {
+        exit_code = grow(grid, it, appearance, &picture_file, &save_file);
+        output_discard(&save_file);
+    }
+    output_discard(&picture_file);
+    return exit_code;
+}
+
+static bool check(const program *command, const scene *it, const files *names)
+{
+    const char *given = option_given_of(command, SCENE_HEADING);
+    if (names->load && given) {
+        complain("--load brings its own crystal; --%s cannot be given with it", given);
+        return false;
+    }
+    return scene_check(it, command);
+}
+
+int main(int argc, char **argv)
+{
+    scene it;
+    look appearance = {SNOW_PALETTE_PAPER, 800, 3, 0};
+    files names = {0};
+    int32_t list = 0;
+    scene_init(&it);
+    option_row rows[] = {
+        SCENE_ROWS(&it),
+        RUN_ROWS(&it),
+        OPTION_GROUP("The picture"),
+        OPTION_TEXT("out", "FILE.png", &names.out, "where the picture goes; none: no picture"),
+        OPTION_CHOICE("palette", palette_names, &appearance.palette, "colours (paper)"),
+        OPTION_INTEGER("size", "PIXELS", &appearance.size, 0, 65535, "longer side; 0: one pixel a cell (800)"),
+        OPTION_INTEGER("samples", "COUNT", &appearance.samples, 1, 8, "samples along a pixel's side (3)"),
+        OPTION_FLAG("transparent", &appearance.transparent, "draw the ice only"),
+        OPTION_GROUP("Other"),
+        OPTION_TEXT("save", "FILE", &names.save, "keep the crystal, to go on with --load"),
+        OPTION_TEXT("load", "FILE", &names.load, "go on with a kept crystal"),
+        OPTION_FLAG("list-presets", &list, "print the presets and end"),
+        OPTION_END,
+    };
+    program command = {"snowflake",
+                       "Grows one snow crystal and prints how that ended, in one line. Ctrl-C ends it early;\n"
+                       "picture and line are then those of the crystal as it stands.",
+                       "snowflake --beta 0.35 --gamma 0.001 --palette frost --out thick-dendrite.png", rows};
+    snow_grid *grid = NULL;
+    int exit_code;
+
+    if (!options_read(&command, argc, argv, &exit_code))
+        return exit_code;
+    if (list)
+        return list_presets();
+    if (!check(&command, &it, &names))
+        return EXIT_WRONG;
+    it.params.record_freeze_steps = names.save || appearance.palette == SNOW_PALETTE_AGE;
+    progress_start();
+    exit_code = names.load ? load(names.load, &it.options, &grid) : scene_create(&it, &grid);
+    if (exit_code == EXIT_DONE)
+        exit_code = grow_into_files(grid, &it, &appearance, &names);
+    snow_destroy(grid);
+    return exit_code;
+}
