@@ -21,64 +21,72 @@ snow_status snow_reiter_conditions_of(const snow_grid *grid, snow_reiter_conditi
     return SNOW_OK;
 }
 
-/* Visits the cells that hold vapour: the fixed ones and those that are not receptive. */
-typedef bool (*vapour_visitor)(snow_grid *grid, int32_t q, int32_t r, reiter_cell *cell, double factor);
+/* How vapour follows a new background. */
+typedef struct rescaling {
+    double old_level; /* the old background, as the vapour holds it */
+    double new_level;
+    double factor;
+} rescaling;
 
-static bool visit_vapour(snow_grid *grid, vapour_visitor visitor, double factor)
+/* What holds the background holds the new one, exactly. */
+static void rescale(reiter_cell *cell, const rescaling *scale)
 {
-    snow_walk walks[2] = {reiter_walk_part(grid), reiter_walk_fixed(grid)};
-    for (int i = 0; i < 2; i++) {
-        while (snow_walk_next(&walks[i])) {
-            snow_cell at = walks[i].cell;
-            reiter_cell cell = reiter_of(grid)->engine->get(grid, at.q, at.r);
-            if (!cell.receptive && !visitor(grid, at.q, at.r, &cell, factor))
-                return false;
-        }
+    if (cell->value == scale->old_level && cell->low == 0) {
+        cell->value = scale->new_level;
+        return;
+    }
+    cell->value *= scale->factor;
+    cell->low *= scale->factor;
+}
+
+/* Whether all vapour stays below the threshold; with `commit` it is changed. */
+static bool rescale_cells(snow_grid *grid, snow_walk walk, const rescaling *scale, bool commit)
+{
+    const reiter_engine *engine = reiter_of(grid)->engine;
+    while (snow_walk_next(&walk)) {
+        reiter_cell cell = engine->get(grid, walk.cell.q, walk.cell.r);
+        if (cell.receptive)
+            continue;
+        rescale(&cell, scale);
+        if (!(cell.value < reiter_threshold()))
+            return false;
+        if (commit)
+            engine->put(grid, walk.cell.q, walk.cell.r, &cell);
     }
     return true;
 }
 
-static bool stays_vapour(snow_grid *grid, int32_t q, int32_t r, reiter_cell *cell, double factor)
+static snow_status rescale_all(snow_grid *grid, double background)
 {
-    (void)grid;
-    (void)q;
-    (void)r;
-    return cell->value * factor < reiter_threshold();
+    const reiter *model = reiter_of(grid);
+    if (model->params.background == 0)
+        return SNOW_ERROR_REITER_RESCALE;
+    rescaling scale = {reiter_background(model), background, background / model->params.background};
+    if (!isfinite(scale.factor) || !rescale_cells(grid, reiter_walk_part(grid), &scale, false) ||
+        !rescale_cells(grid, reiter_walk_fixed(grid), &scale, false))
+        return SNOW_ERROR_REITER_VAPOUR;
+    rescale_cells(grid, reiter_walk_part(grid), &scale, true);
+    rescale_cells(grid, reiter_walk_fixed(grid), &scale, true);
+    return SNOW_OK;
 }
 
-static bool rescale(snow_grid *grid, int32_t q, int32_t r, reiter_cell *cell, double factor)
+static void set_fixed(snow_grid *grid, double background)
 {
-    cell->value *= factor;
-    cell->low *= factor;
-    reiter_of(grid)->engine->put(grid, q, r, cell);
-    return true;
-}
-
-static bool set_fixed(snow_grid *grid, int32_t q, int32_t r, reiter_cell *cell, double background)
-{
-    cell->value = background;
-    cell->low = 0;
-    if (!snow_domain_has(&grid->domain, q, r))
-        reiter_of(grid)->engine->put(grid, q, r, cell);
-    return true;
+    reiter_cell cell = {.value = background};
+    for (snow_walk walk = reiter_walk_fixed(grid); snow_walk_next(&walk);)
+        reiter_of(grid)->engine->put(grid, walk.cell.q, walk.cell.r, &cell);
 }
 
 static snow_status change_background(snow_grid *grid, const snow_reiter_conditions *conditions)
 {
-    reiter *model = reiter_of(grid);
-    double old = model->params.background;
-    if (!conditions->rescale) {
-        visit_vapour(grid, set_fixed, conditions->background);
-    } else {
-        if (old == 0)
-            return SNOW_ERROR_REITER_RESCALE;
-        double factor = conditions->background / old;
-        if (!isfinite(factor) || !visit_vapour(grid, stays_vapour, factor))
-            return SNOW_ERROR_REITER_VAPOUR;
-        visit_vapour(grid, rescale, factor);
-    }
-    model->params.background = conditions->background;
-    return SNOW_OK;
+    snow_status status = SNOW_OK;
+    if (conditions->rescale)
+        status = rescale_all(grid, conditions->background);
+    else
+        set_fixed(grid, conditions->background);
+    if (status == SNOW_OK)
+        reiter_of(grid)->params.background = conditions->background;
+    return status;
 }
 
 static void change_addition(snow_grid *grid, double addition)

@@ -8,13 +8,6 @@ snow_status snow_reiter_can_read(const snow_grid *grid, snow_field field)
     return SNOW_OK;
 }
 
-/* Rounded as the fixed cells are, so that no edge shows. */
-static double far_background(const reiter *model)
-{
-    bool exact = model->engine == &snow_reiter_quad;
-    return exact ? model->params.background : reiter_settled(model, model->params.background);
-}
-
 /* A cell that belongs to the medium round the interior. */
 static double read_outside(const snow_grid *grid, snow_field field, int64_t q, int64_t r)
 {
@@ -24,7 +17,7 @@ static double read_outside(const snow_grid *grid, snow_field field, int64_t q, i
     case SNOW_FIELD_VAPOUR:
     case SNOW_FIELD_BACKGROUND:
         return snow_domain_has(&model->hull, q, r) ? model->engine->get(grid, (int32_t)q, (int32_t)r).value
-                                                   : far_background(model);
+                                                   : reiter_background(model);
     case SNOW_FIELD_FREEZE_STEP: return -1;
     case SNOW_FIELD_FROZEN:
     case SNOW_FIELD_RECEPTIVE:

@@ -102,6 +102,13 @@ static inline double reiter_settled(const reiter *model, double value)
     return rounded < reiter_threshold() ? rounded : reiter_threshold() - model->bound * 0x1p-50;
 }
 
+/* β as the vapour holds it, so that no edge shows between the fixed cells and what is beyond. */
+static inline double reiter_background(const reiter *model)
+{
+    bool exact = model->engine == &snow_reiter_quad;
+    return exact ? model->params.background : reiter_settled(model, model->params.background);
+}
+
 static inline double reiter_addition(const reiter *model, size_t number)
 {
     return model->addition_at != NULL ? model->addition_at[number] : model->params.addition;
