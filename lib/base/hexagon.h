@@ -1,5 +1,5 @@
-/* The hexagonal lattice in axial coordinates (models.md conventions, see
-   snowgrowth/grid.h): neighbours, distances, symmetries. */
+/* The hexagonal lattice in axial coordinates, as in snowgrowth/grid.h:
+   neighbours, distances, symmetries. */
 #ifndef SNOW_BASE_HEXAGON_H
 #define SNOW_BASE_HEXAGON_H
 

@@ -174,6 +174,8 @@ static snow_status set_values(snow_grid *grid, const snow_domain *domain, const 
         status = snow_reiter_unfold(grid, false);
     if (status != SNOW_OK)
         return status;
+    if (put == put_value)
+        snow_reiter_merge_additions(grid); /* a neighbour that is receptive no more keeps what it had gained */
     visit(grid, domain, rect, values, put);
     snow_reiter_choose_bound(grid);
     reiter_of(grid)->engine->settle(grid);

@@ -84,10 +84,23 @@ static inline bool reiter_is_vapour(double value)
     return value >= 0 && value < reiter_threshold();
 }
 
-/* Adding and subtracting this rounds a smaller number to the quantum, 2^-50 times the bound. */
+/* Whether values beyond [0, 1) can arise where no ice is near: only then are they looked for. */
+static inline bool reiter_overshoots(const reiter *model)
+{
+    return model->params.diffusion > 2;
+}
+
+/* Every sum of a step is less than 2^53 of these: up to 6 times the bound where
+   vapour has one sign, 12 times where it has both. */
+static inline double reiter_quantum(const reiter *model)
+{
+    return model->bound * (reiter_overshoots(model) ? 0x1p-49 : 0x1p-50);
+}
+
+/* Adding and subtracting this rounds a smaller number to the quantum. */
 static inline double reiter_rounder(const reiter *model)
 {
-    return model->bound * 0x1p-50 * 0x1.8p52;
+    return reiter_quantum(model) * 0x1.8p52;
 }
 
 static inline double reiter_round(double value, double rounder)
@@ -99,7 +112,7 @@ static inline double reiter_round(double value, double rounder)
 static inline double reiter_settled(const reiter *model, double value)
 {
     double rounded = reiter_round(value, reiter_rounder(model));
-    return rounded < reiter_threshold() ? rounded : reiter_threshold() - model->bound * 0x1p-50;
+    return rounded < reiter_threshold() ? rounded : reiter_threshold() - reiter_quantum(model);
 }
 
 /* β as the vapour holds it, so that no edge shows between the fixed cells and what is beyond. */
@@ -118,12 +131,6 @@ static inline double reiter_addition(const reiter *model, size_t number)
 static inline double reiter_value(const reiter_cell *cell, double addition)
 {
     return cell->low + cell->value + addition * cell->additions;
-}
-
-/* Whether values beyond [0, 1) can arise where no ice is near: only then are they looked for. */
-static inline bool reiter_overshoots(const reiter *model)
-{
-    return model->params.diffusion > 2;
 }
 
 /* params.c */

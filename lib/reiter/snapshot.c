@@ -129,6 +129,9 @@ static snow_status load_scene(snow_source *source, saved_scene *scene)
     return least <= snow_source_left(source) ? SNOW_OK : SNOW_ERROR_TRUNCATED;
 }
 
+/* Above α = 2 cells can collect less than nothing, but not without end. */
+static const double greatest_collected = 0x1p20;
+
 static bool is_sound_cell(const saved_scene *scene, const reiter_cell *cell, double addition)
 {
     if (!isfinite(cell->value) || !isfinite(cell->low) || !(addition >= 0 && addition <= 1))
@@ -137,7 +140,8 @@ static bool is_sound_cell(const saved_scene *scene, const reiter_cell *cell, dou
         return false;
     if (cell->frozen)
         return true;
-    return fabs(cell->value) <= scene->bound * 1024 && reiter_value(cell, addition) < reiter_threshold();
+    double greatest = cell->receptive ? greatest_collected : scene->bound;
+    return fabs(cell->value) <= greatest && reiter_value(cell, addition) < reiter_threshold();
 }
 
 static void load_value(const reiter *model, snow_source *source, reiter_cell *cell)
