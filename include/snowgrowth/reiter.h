@@ -162,7 +162,7 @@ SNOW_API const char *snow_reiter_preset_source(size_t index);
  *
  * Setting a field of a scene that is computed by its symmetry unfolds it for good.
  *
- * Memory: about 37 bytes for each cell that is computed, 41 with freeze steps;
+ * Memory: about 41 bytes for each cell that is computed, 45 with freeze steps;
  * a scene with all twelve symmetries computes one cell in twelve. Stepping asks
  * for none.
  *

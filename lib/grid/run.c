@@ -70,7 +70,7 @@ static double tip_radius(const snow_grid *grid)
     return grid->census.tip_square > 0 ? sqrt((double)grid->census.tip_square) : 0;
 }
 
-static snow_summary summarise(const snow_grid *grid, snow_stop_reason reason, double started)
+static SNOW_APART snow_summary summarise(const snow_grid *grid, snow_stop_reason reason, double started)
 {
     return (snow_summary){
         .struct_size = sizeof(snow_summary),

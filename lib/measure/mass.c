@@ -41,12 +41,10 @@ snow_status snow_mass(const snow_grid *grid, double *vapour, double *ice)
     long_sum ice_sum = {0, 0};
     for (int32_t row = 0; row < grid->domain.rows; row++)
         add_row(grid, grid->domain.top + row, &vapour_sum, &ice_sum);
-    double vapour_mass = vapour_sum.sum + vapour_sum.rest;
-    double ice_mass = ice_sum.sum + ice_sum.rest;
-    snow_floating_leave(&floating);
     if (vapour != NULL)
-        *vapour = vapour_mass;
+        *vapour = vapour_sum.sum + vapour_sum.rest;
     if (ice != NULL)
-        *ice = ice_mass;
+        *ice = ice_sum.sum + ice_sum.rest;
+    snow_floating_leave(&floating);
     return SNOW_OK;
 }

@@ -37,7 +37,7 @@ snow_status snow_symmetry_defect(const snow_grid *grid, double *defect)
         for (int32_t q = run->first; q < run->end; q++)
             greatest = fmax(greatest, defect_of(grid, q, grid->domain.top + row));
     }
-    snow_floating_leave(&floating);
     *defect = greatest;
+    snow_floating_leave(&floating);
     return SNOW_OK;
 }

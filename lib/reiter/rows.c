@@ -56,12 +56,16 @@ static reiter_cell get(const snow_grid *grid, int32_t q, int32_t r)
     if (is_fixed_and_folded(grid, q, r))
         return (reiter_cell){.value = cells->fixed};
     size_t i = number(grid, q, r);
-    if (cells->state[i] == CELL_VAPOUR || cells->state[i] == CELL_OTHER)
-        return (reiter_cell){.value = cells->vapour[cells->now][i]};
+    cell_state state = (cell_state)cells->state[i];
+    double vapour = cells->vapour[cells->now][i];
+    if (state == CELL_VAPOUR || state == CELL_OTHER)
+        return (reiter_cell){.value = vapour};
+    receptive_cell unlisted = {(uint32_t)i, cells->place[i], vapour};
+    const receptive_cell *cell = cells->lists ? &cells->listed[cells->place[i]] : &unlisted;
     return (reiter_cell){
-        .value = cells->collected[i],
-        .additions = (uint32_t)grid->census.steps - cells->since[i],
-        .frozen = cells->state[i] == CELL_FROZEN,
+        .value = cell->collected,
+        .additions = (uint32_t)grid->census.steps - cell->since,
+        .frozen = state != CELL_FRONT,
         .receptive = true,
     };
 }
@@ -73,12 +77,12 @@ static void put(snow_grid *grid, int32_t q, int32_t r, const reiter_cell *cell)
         cells->fixed = cell->value;
         return;
     }
+    snow_rows_unlist(cells);
     size_t i = number(grid, q, r);
     if (cells->state[i] != CELL_OTHER)
         cells->state[i] = cell->frozen ? CELL_FROZEN : cell->receptive ? CELL_FRONT : CELL_VAPOUR;
     cells->vapour[cells->now][i] = cell->value;
-    cells->collected[i] = cell->value;
-    cells->since[i] = (uint32_t)grid->census.steps - cell->additions;
+    cells->place[i] = (uint32_t)grid->census.steps - cell->additions;
 }
 
 static bool is_frozen(const snow_grid *grid, int32_t q, int32_t r)
@@ -101,12 +105,8 @@ static void settle_state(const snow_grid *grid, int32_t q, int32_t r)
         return;
     bool was_front = cells->state[i] == CELL_FRONT;
     bool is_front = is_by_ice(grid, q, r);
-    if (is_front && !was_front) {
-        cells->collected[i] = cells->vapour[cells->now][i];
-        cells->since[i] = (uint32_t)grid->census.steps;
-    } else if (was_front && !is_front) {
-        cells->vapour[cells->now][i] = cells->collected[i];
-    }
+    if (is_front && !was_front)
+        cells->place[i] = (uint32_t)grid->census.steps;
     cells->state[i] = is_front ? CELL_FRONT : CELL_VAPOUR;
 }
 
@@ -126,9 +126,10 @@ static double settled_vapour(const snow_grid *grid, size_t i)
 static void settle(snow_grid *grid)
 {
     rows *cells = rows_of(grid);
-    for (int32_t row = 0; row < cells->part.rows; row++)
-        for (int32_t q = cells->part.run[row].first; q < cells->part.run[row].end; q++)
-            settle_state(grid, q, cells->part.top + row);
+    snow_rows_unlist(cells);
+    for (snow_walk walk = snow_walk_over(&cells->part, NULL); snow_walk_next(&walk);)
+        settle_state(grid, walk.cell.q, walk.cell.r);
+    snow_rows_list(grid);
     cells->fixed = reiter_settled(reiter_of(grid), cells->fixed);
     for (size_t i = 0; i < cells->count; i++) {
         double vapour = settled_vapour(grid, i);
@@ -137,7 +138,6 @@ static void settle(snow_grid *grid)
     }
     snow_rows_copy_ghosts(cells, cells->vapour[0]);
     snow_rows_copy_ghosts(cells, cells->vapour[1]);
-    snow_rows_list_front(grid);
     snow_rows_wake_all(cells);
 }
 

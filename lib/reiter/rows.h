@@ -12,21 +12,31 @@
 
 typedef enum cell_state {
     CELL_VAPOUR = 0,
-    CELL_FRONT = 1, /* receptive, not frozen */
-    CELL_FROZEN = 2,
-    CELL_OTHER = 3 /* fixed, ghost or padding */
+    CELL_FRONT = 1,  /* receptive, not frozen */
+    CELL_FROZEN = 2, /* out of reach of all vapour */
+    CELL_FED = 3,    /* frozen, and fed by a fixed cell beside it */
+    CELL_OTHER = 4   /* fixed, ghost or padding */
 } cell_state;
 
+/* What is kept of a receptive cell. */
+typedef struct receptive_cell {
+    uint32_t number;
+    uint32_t since;   /* the step since which it gains, modulo 2^32 */
+    double collected; /* what it had and collected, without additions */
+} receptive_cell;
+
 /* Rows that one task computes. Its cells have as much room in `listed` as
-   there are of them: the front from `first` up, what has just frozen from
-   `end` down. The two never meet, so that a step needs no memory. */
+   there are of them: those that collect (the front, and fed ice) from `first`
+   up, other ice from `end` down, what has just frozen last. The two never meet,
+   so that a step needs no memory. */
 typedef struct row_block {
     int32_t first_row; /* of the part */
     int32_t end_row;
     size_t first; /* of the cells, as stored */
     size_t end;
-    size_t front;           /* listed cells of the front, ice at the rim included */
-    size_t fresh;           /* cells that froze in this step */
+    size_t front;           /* cells that collect */
+    size_t ice;             /* frozen cells that do not */
+    size_t fresh;           /* those of them that froze in this step */
     size_t first_segment;   /* of what is computed */
     size_t segments;
     bool collected;  /* a cell of the front collected enough to freeze one day */
@@ -49,10 +59,10 @@ typedef struct rows {
     double *vapour[2]; /* 0 where receptive */
     int now;           /* which of the two holds the present step */
     double fixed;      /* of the fixed cells, where the part is not the whole */
-    double *collected; /* of receptive cells: what they had and collected, without additions */
-    uint32_t *since;   /* of receptive cells: the step since which they gain, modulo 2^32 */
     unsigned char *state;
-    uint32_t *listed;
+    receptive_cell *listed;
+    uint32_t *place; /* of receptive cells: where they are listed */
+    bool lists;      /* else `place` stands for their `since`, and `vapour` for `collected` */
     ghost_cell *ghost;
     size_t ghosts;
     row_block *block;
@@ -101,7 +111,7 @@ void snow_rows_choose_active(const snow_grid *grid);
 void snow_rows_list_segments(rows *cells);
 
 /* rows_front.c */
-/* Gives the front cells of a block what has diffused into them, and lists
+/* Gives the listed cells of a block what has diffused into them, and lists
    those that freeze. */
 void snow_rows_collect(const snow_grid *grid, row_block *block, double *next);
 /* Lists the cells of a block that freeze although no ice is next to them. */
@@ -110,7 +120,9 @@ void snow_rows_overshoot(const snow_grid *grid, row_block *block, const double *
 bool snow_rows_freeze(snow_grid *grid, double *next, bool looking);
 /* Whether a cell of the front has an addition that will freeze it. */
 bool snow_rows_front_gains(const snow_grid *grid);
-/* Lists the front of every block anew. */
-void snow_rows_list_front(snow_grid *grid);
+/* Lists the receptive cells. */
+void snow_rows_list(snow_grid *grid);
+/* Takes the lists apart, so that cells can be put. */
+void snow_rows_unlist(rows *cells);
 
 #endif

@@ -2,41 +2,57 @@
    and, because the fixed cells feed it for ever, ice at the very rim. */
 #include "reiter/rows.h"
 
-#include <string.h>
+static void put_into_list(rows *cells, size_t place, receptive_cell cell)
+{
+    cells->listed[place] = cell;
+    cells->place[cell.number] = (uint32_t)place;
+}
+
+static void add_to_ice(rows *cells, row_block *block, receptive_cell cell)
+{
+    block->ice++;
+    put_into_list(cells, block->end - block->ice, cell);
+}
+
+/* The last cell of the front takes the place of one that freezes. */
+static void move_to_ice(rows *cells, row_block *block, size_t place)
+{
+    receptive_cell cell = cells->listed[place];
+    block->front--;
+    put_into_list(cells, place, cells->listed[block->first + block->front]);
+    add_to_ice(cells, block, cell);
+    block->fresh++;
+}
 
 /* The vapour of a receptive cell counts as zero, so what the kernel computed
    for it is just what has diffused into it. */
 static inline void collect(const snow_grid *grid, row_block *block, double *restrict next, const double *addition_at)
 {
-    const reiter *model = reiter_of(grid);
     rows *cells = rows_of(grid);
-    double *restrict held = cells->collected;
-    const uint32_t *since = cells->since;
-    const unsigned char *state = cells->state;
+    receptive_cell *listed = cells->listed;
     uint32_t step = (uint32_t)grid->census.steps + 1;
-    const double addition = model->params.addition;
+    const double addition = reiter_of(grid)->params.addition;
     const double threshold = reiter_threshold();
-    uint32_t *restrict front = cells->listed + block->first;
-    size_t left = 0;
     bool collected = false;
-    for (size_t k = 0; k < block->front; k++) {
-        uint32_t i = front[k];
-        double inflow = next[i];
-        next[i] = 0;
-        double now = held[i] + inflow;
-        held[i] = now;
-        double value = now + (addition_at != NULL ? addition_at[i] : addition) * (step - since[i]);
-        bool open = value < threshold;
-        collected |= open & (inflow * REITER_STILL_STEPS >= threshold - value);
-        if (open || state[i] == CELL_FROZEN) {
-            front[k] = front[left];
-            front[left++] = i;
+    block->fresh = 0;
+    for (size_t place = block->first; place < block->first + block->front;) {
+        receptive_cell *cell = &listed[place];
+        uint32_t number = cell->number;
+        double inflow = next[number];
+        next[number] = 0;
+        cell->collected += inflow;
+        double own = addition_at != NULL ? addition_at[number] : addition;
+        double missing = threshold - (cell->collected + own * (step - cell->since));
+        if (missing > 0) {
+            collected |= inflow * REITER_STILL_STEPS >= missing;
+            place++;
+        } else if (cells->state[number] == CELL_FED) {
+            place++;
+        } else {
+            move_to_ice(cells, block, place);
         }
     }
-    block->fresh = block->front - left;
-    block->front = left;
     block->collected = collected;
-    memmove(cells->listed + block->end - block->fresh, front + left, block->fresh * sizeof *front);
 }
 
 void snow_rows_collect(const snow_grid *grid, row_block *block, double *next)
@@ -50,11 +66,11 @@ void snow_rows_collect(const snow_grid *grid, row_block *block, double *next)
 
 void snow_rows_overshoot(const snow_grid *grid, row_block *block, const double *next)
 {
-    const rows *cells = rows_of(grid);
+    rows *cells = rows_of(grid);
     for (size_t i = block->first; i < block->end; i++) {
         if (cells->state[i] == CELL_VAPOUR && next[i] >= reiter_threshold()) {
+            add_to_ice(cells, block, (receptive_cell){.number = (uint32_t)i});
             block->fresh++;
-            cells->listed[block->end - block->fresh] = (uint32_t)i;
         }
     }
 }
@@ -78,24 +94,29 @@ static snow_cell locate(const rows *cells, const row_block *block, size_t i)
     return (snow_cell){(int32_t)((int64_t)i - cells->offset[row]), cells->part.top + row - 1};
 }
 
-static void list(rows *cells, size_t i)
+static row_block *block_of(const rows *cells, uint32_t number)
 {
     row_block *block = cells->block;
-    while (i >= block->end)
+    while (number >= block->end)
         block++;
-    cells->listed[block->first + block->front++] = (uint32_t)i;
+    return block;
+}
+
+static void add_to_front(rows *cells, receptive_cell cell)
+{
+    row_block *block = block_of(cells, cell.number);
+    put_into_list(cells, block->first + block->front++, cell);
 }
 
 /* What a cell held as vapour it keeps; the place is zero from now on. */
-static void take_vapour(const snow_grid *grid, double *next, snow_cell cell, bool looking)
+static receptive_cell take_vapour(const snow_grid *grid, double *next, snow_cell at, bool looking)
 {
-    rows *cells = rows_of(grid);
-    size_t i = rows_number(cells, cell.q, cell.r);
-    cells->collected[i] = next[i];
-    cells->since[i] = (uint32_t)grid->census.steps;
+    size_t i = rows_number(rows_of(grid), at.q, at.r);
+    receptive_cell cell = {(uint32_t)i, (uint32_t)grid->census.steps, next[i]};
     if (next[i] != 0)
-        snow_rows_wake(grid, cell.q, cell.r, looking);
+        snow_rows_wake(grid, at.q, at.r, looking);
     next[i] = 0;
+    return cell;
 }
 
 static void join_front(snow_grid *grid, double *next, int32_t q, int32_t r, bool looking)
@@ -103,87 +124,127 @@ static void join_front(snow_grid *grid, double *next, int32_t q, int32_t r, bool
     rows *cells = rows_of(grid);
     if (!snow_domain_has(&grid->domain, q, r))
         return;
-    snow_cell cell = snow_group_representative(reiter_of(grid)->group, q, r);
-    size_t i = rows_number(cells, cell.q, cell.r);
+    snow_cell at = snow_group_representative(reiter_of(grid)->group, q, r);
+    size_t i = rows_number(cells, at.q, at.r);
     if (cells->state[i] != CELL_VAPOUR)
         return;
-    take_vapour(grid, next, cell, looking);
     cells->state[i] = CELL_FRONT;
-    list(cells, i);
+    add_to_front(cells, take_vapour(grid, next, at, looking));
 }
 
-static void freeze_cell(snow_grid *grid, double *next, snow_cell cell, bool looking)
+static void freeze_cell(snow_grid *grid, double *next, receptive_cell *fresh, snow_cell at, bool looking)
 {
     rows *cells = rows_of(grid);
-    size_t i = rows_number(cells, cell.q, cell.r);
-    if (cells->state[i] == CELL_VAPOUR)
-        take_vapour(grid, next, cell, looking);
-    cells->state[i] = CELL_FROZEN;
-    snow_reiter_freeze(grid, cell.q, cell.r);
+    if (cells->state[fresh->number] == CELL_VAPOUR)
+        *fresh = take_vapour(grid, next, at, looking);
+    cells->state[fresh->number] = CELL_FROZEN;
+    snow_reiter_freeze(grid, at.q, at.r);
 }
 
-static void extend_front(snow_grid *grid, double *next, snow_cell cell, bool looking)
+static void extend_front(snow_grid *grid, double *next, snow_cell at, bool looking)
 {
-    if (snow_rows_touches_fixed(grid, cell.q, cell.r))
-        list(rows_of(grid), rows_number(rows_of(grid), cell.q, cell.r));
-    join_front(grid, next, cell.q - 1, cell.r, looking);
-    join_front(grid, next, cell.q + 1, cell.r, looking);
-    join_front(grid, next, cell.q, cell.r - 1, looking);
-    join_front(grid, next, cell.q + 1, cell.r - 1, looking);
-    join_front(grid, next, cell.q - 1, cell.r + 1, looking);
-    join_front(grid, next, cell.q, cell.r + 1, looking);
+    join_front(grid, next, at.q - 1, at.r, looking);
+    join_front(grid, next, at.q + 1, at.r, looking);
+    join_front(grid, next, at.q, at.r - 1, looking);
+    join_front(grid, next, at.q + 1, at.r - 1, looking);
+    join_front(grid, next, at.q - 1, at.r + 1, looking);
+    join_front(grid, next, at.q, at.r + 1, looking);
+}
+
+/* The last of the ice takes the place of a cell that goes on collecting. */
+static void feed_if_at_rim(const snow_grid *grid, row_block *block, size_t place, snow_cell at)
+{
+    rows *cells = rows_of(grid);
+    if (!snow_rows_touches_fixed(grid, at.q, at.r))
+        return;
+    receptive_cell cell = cells->listed[place];
+    cells->state[cell.number] = CELL_FED;
+    put_into_list(cells, place, cells->listed[block->end - block->ice]);
+    block->ice--;
+    add_to_front(cells, cell);
 }
 
 /* All cells freeze before any front grows: a cell that freezes never joins the front. */
 bool snow_rows_freeze(snow_grid *grid, double *next, bool looking)
 {
-    const rows *cells = rows_of(grid);
+    rows *cells = rows_of(grid);
     bool any = false;
     for (size_t b = 0; b < cells->blocks; b++) {
         const row_block *block = &cells->block[b];
+        receptive_cell *fresh = cells->listed + block->end - block->ice;
         any = any || block->fresh > 0;
-        for (size_t k = block->end - block->fresh; k < block->end; k++)
-            freeze_cell(grid, next, locate(cells, block, cells->listed[k]), looking);
+        for (size_t i = 0; i < block->fresh; i++)
+            freeze_cell(grid, next, &fresh[i], locate(cells, block, fresh[i].number), looking);
     }
     for (size_t b = 0; b < cells->blocks; b++) {
-        const row_block *block = &cells->block[b];
-        for (size_t k = block->end - block->fresh; k < block->end; k++)
-            extend_front(grid, next, locate(cells, block, cells->listed[k]), looking);
+        row_block *block = &cells->block[b];
+        size_t first = block->end - block->ice;
+        for (size_t place = first; place < first + block->fresh; place++) {
+            snow_cell at = locate(cells, block, cells->listed[place].number);
+            extend_front(grid, next, at, looking);
+            feed_if_at_rim(grid, block, place, at);
+        }
     }
     return any;
 }
 
 bool snow_rows_front_gains(const snow_grid *grid)
 {
-    const reiter *model = reiter_of(grid);
     const rows *cells = rows_of(grid);
     for (size_t b = 0; b < cells->blocks; b++) {
         const row_block *block = &cells->block[b];
-        for (size_t k = block->first; k < block->first + block->front; k++) {
-            uint32_t i = cells->listed[k];
-            if (cells->state[i] == CELL_FRONT && reiter_addition(model, i) > 0)
+        for (size_t place = block->first; place < block->first + block->front; place++) {
+            uint32_t number = cells->listed[place].number;
+            if (cells->state[number] == CELL_FRONT && reiter_addition(reiter_of(grid), number) > 0)
                 return true;
         }
     }
     return false;
 }
 
-void snow_rows_list_front(snow_grid *grid)
+static void list_settled(const snow_grid *grid, snow_cell at)
 {
     rows *cells = rows_of(grid);
-    for (size_t b = 0; b < cells->blocks; b++) {
+    uint32_t number = (uint32_t)rows_number(cells, at.q, at.r);
+    receptive_cell cell = {number, cells->place[number], cells->vapour[cells->now][number]};
+    if (cells->state[number] == CELL_VAPOUR)
+        return;
+    if (cells->state[number] == CELL_FROZEN && snow_rows_touches_fixed(grid, at.q, at.r))
+        cells->state[number] = CELL_FED;
+    if (cells->state[number] == CELL_FROZEN)
+        add_to_ice(cells, block_of(cells, number), cell);
+    else
+        add_to_front(cells, cell);
+}
+
+void snow_rows_list(snow_grid *grid)
+{
+    rows *cells = rows_of(grid);
+    for (snow_walk walk = snow_walk_over(&cells->part, NULL); snow_walk_next(&walk);)
+        list_settled(grid, walk.cell);
+    cells->lists = true;
+}
+
+static void unlist(rows *cells, size_t first, size_t count)
+{
+    for (size_t place = first; place < first + count; place++) {
+        const receptive_cell *cell = &cells->listed[place];
+        cells->vapour[cells->now][cell->number] = cell->collected;
+        cells->place[cell->number] = cell->since;
+        if (cells->state[cell->number] == CELL_FED)
+            cells->state[cell->number] = CELL_FROZEN;
+    }
+}
+
+void snow_rows_unlist(rows *cells)
+{
+    for (size_t b = 0; b < cells->blocks && cells->lists; b++) {
         row_block *block = &cells->block[b];
+        unlist(cells, block->first, block->front);
+        unlist(cells, block->end - block->ice, block->ice);
         block->front = 0;
+        block->ice = 0;
         block->fresh = 0;
     }
-    const snow_domain *part = &cells->part;
-    for (int32_t row = 0; row < part->rows; row++) {
-        for (int32_t q = part->run[row].first; q < part->run[row].end; q++) {
-            int32_t r = part->top + row;
-            size_t i = rows_number(cells, q, r);
-            if (cells->state[i] == CELL_FRONT ||
-                (cells->state[i] == CELL_FROZEN && snow_rows_touches_fixed(grid, q, r)))
-                list(cells, i);
-        }
-    }
+    cells->lists = false;
 }

@@ -60,9 +60,8 @@ static snow_status place_cells(rows *cells, snow_heap *heap)
     size_t count = cells->count;
     bool complete = (cells->vapour[0] = snow_heap_get(heap, count, sizeof(double))) != NULL &&
                     (cells->vapour[1] = snow_heap_get(heap, count, sizeof(double))) != NULL &&
-                    (cells->collected = snow_heap_get_raw(heap, count, sizeof(double))) != NULL &&
-                    (cells->since = snow_heap_get_raw(heap, count, sizeof *cells->since)) != NULL &&
                     (cells->state = snow_heap_get_raw(heap, count, sizeof *cells->state)) != NULL &&
+                    (cells->place = snow_heap_get_raw(heap, count, sizeof *cells->place)) != NULL &&
                     (cells->listed = snow_heap_get_raw(heap, count, sizeof *cells->listed)) != NULL;
     if (!complete)
         return heap->refusal;
@@ -249,8 +248,7 @@ void snow_rows_destroy(snow_grid *grid)
     snow_heap_put(heap, cells->first);
     snow_heap_put(heap, cells->vapour[0]);
     snow_heap_put(heap, cells->vapour[1]);
-    snow_heap_put(heap, cells->collected);
-    snow_heap_put(heap, cells->since);
+    snow_heap_put(heap, cells->place);
     snow_heap_put(heap, cells->state);
     snow_heap_put(heap, cells->listed);
     snow_heap_put(heap, cells->ghost);

@@ -1,0 +1,352 @@
+/* Engine, instruction set, number of threads and parallel loop change no bit. */
+#include "support/grids.h"
+#include "support/loops.h"
+
+#include <stdlib.h>
+
+static const double diffusions[] = {0, 0.25, 0.5, 1, 1.5, 2, 2.003, 2.5, 8.0 / 3.0};
+static const double additions[] = {0, 0.0001, 0.001, 0.01, 0.05, 0.1, 0.3, 1};
+static const int64_t strides[] = {1, 2, 3, 17, 60};
+
+static snow_options random_options(uint64_t *random, snow_isa isa)
+{
+    snow_options options = default_options();
+    options.isa = isa;
+    options.threads = (int32_t)next_below(random, 8) + 1;
+    uint32_t loop = next_below(random, (uint32_t)test_loop_count + 1);
+    if (loop < test_loop_count)
+        options.parallel_for = test_loops[loop].run;
+    return options;
+}
+
+/* Steps both in the same strides and compares every bit after each. */
+static void assert_equal_growth(const snow_reiter_params *scene, const snow_options *options, int64_t rounds)
+{
+    snow_reiter_params params = *scene;
+    params.engine = SNOW_REITER_ENGINE_REFERENCE;
+    snow_grid *reference = make_grid(&params, NULL);
+    params.engine = SNOW_REITER_ENGINE_ROWS;
+    snow_grid *rows = make_grid(&params, options);
+    for (int64_t i = 0; i < rounds; i++) {
+        assert_same_grids(reference, rows);
+        int64_t stride = strides[(size_t)i % COUNT_OF(strides)];
+        assert_ok(snow_step(reference, stride));
+        assert_ok(snow_step(rows, stride));
+    }
+    assert_same_grids(reference, rows);
+    snow_destroy(reference);
+    snow_destroy(rows);
+}
+
+static void assert_equal_growth_everywhere(const snow_reiter_params *scene)
+{
+    snow_isa isas[8];
+    size_t count = available_isas(isas);
+    for (size_t i = 0; i < count; i++) {
+        for (int32_t threads = 1; threads <= 8; threads++) {
+            snow_options options = default_options();
+            options.isa = isas[i];
+            options.threads = threads;
+            assert_equal_growth(scene, &options, 4);
+            options.parallel_for = test_loops[(size_t)threads % test_loop_count].run;
+            assert_equal_growth(scene, &options, 4);
+        }
+    }
+}
+
+static void every_isa_thread_count_and_loop_on_a_disc(void **state)
+{
+    (void)state;
+    snow_reiter_params params = disc_scene(0.4, 0.01, 1, 25);
+    params.noise = 0.2;
+    params.record_freeze_steps = 1;
+    assert_equal_growth_everywhere(&params);
+}
+
+static void every_isa_thread_count_and_loop_on_a_rectangle(void **state)
+{
+    (void)state;
+    snow_reiter_params params = rectangle_scene(0.6, 0.05, 2.3, 29, 23);
+    params.noise = 0.1;
+    params.cluster = 5;
+    params.record_freeze_steps = 1;
+    assert_equal_growth_everywhere(&params);
+}
+
+/* Rows that are shorter than a vector, or longer by any number of cells. */
+static void every_width_of_row(void **state)
+{
+    (void)state;
+    static const int32_t heights[] = {1, 2, 3, 7};
+    snow_isa isas[8];
+    size_t count = available_isas(isas);
+    uint64_t random = 11;
+    for (int32_t width = 1; width <= 35; width++) {
+        for (size_t i = 0; i < COUNT_OF(heights); i++) {
+            snow_reiter_params params = rectangle_scene(0.5, 0.01, 1, width, heights[i]);
+            params.noise = 0.3;
+            params.record_freeze_steps = 1;
+            for (size_t j = 0; j < count; j++) {
+                snow_options options = random_options(&random, isas[j]);
+                assert_equal_growth(&params, &options, 4);
+            }
+        }
+    }
+}
+
+static void every_small_disc_and_hexagon(void **state)
+{
+    (void)state;
+    snow_isa isas[8];
+    size_t count = available_isas(isas);
+    uint64_t random = 12;
+    for (int32_t radius = 1; radius <= 12; radius++) {
+        snow_reiter_params scenes[] = {disc_scene(0.4, 0.02, 1, radius), hexagon_scene(0.4, 0.02, 2.1, radius)};
+        for (size_t i = 0; i < COUNT_OF(scenes); i++) {
+            scenes[i].noise = 0.3;
+            for (size_t j = 0; j < count; j++) {
+                snow_options options = random_options(&random, isas[j]);
+                assert_equal_growth(&scenes[i], &options, 5);
+            }
+        }
+    }
+}
+
+static double patchy_background(void *context, int32_t q, int32_t r)
+{
+    (void)context;
+    return (double)((uint32_t)(q * 7 + r * 13) % 29) / 32;
+}
+
+static double patchy_addition(void *context, int32_t q, int32_t r)
+{
+    (void)context;
+    return (double)((uint32_t)(q * 5 + r * 3) % 7) / 100;
+}
+
+/* Up to 6 seeds that lie inside, possibly none. */
+static void scatter_seeds(snow_reiter_params *params, snow_cell seeds[6], uint64_t *random)
+{
+    params->seeds = seeds;
+    params->seed_count = 0;
+    snow_grid *empty = make_grid(params, NULL);
+    size_t wanted = next_below(random, 7);
+    for (int tries = 0; tries < 60 && params->seed_count < wanted; tries++) {
+        snow_cell cell = {(int32_t)next_below(random, 31) - 15, (int32_t)next_below(random, 31) - 15};
+        if (value_at(empty, SNOW_FIELD_INSIDE, cell.q, cell.r) == 1)
+            seeds[params->seed_count++] = cell;
+    }
+    snow_destroy(empty);
+}
+
+static snow_reiter_params random_scene(uint64_t *random, snow_cell seeds[6])
+{
+    double background = next_below(random, 96) / 100.0;
+    double addition = additions[next_below(random, COUNT_OF(additions))];
+    double diffusion = diffusions[next_below(random, COUNT_OF(diffusions))];
+    int32_t size = (int32_t)next_below(random, 24) + 1;
+    int32_t other = (int32_t)next_below(random, 40) + 1;
+    uint32_t shape = next_below(random, 3);
+    snow_reiter_params params = shape == 0   ? disc_scene(background, addition, diffusion, size)
+                                : shape == 1 ? hexagon_scene(background, addition, diffusion, size)
+                                             : rectangle_scene(background, addition, diffusion, size, other);
+    params.record_freeze_steps = (int32_t)next_below(random, 2);
+    params.random_seed = next_below(random, 1000);
+    if (next_below(random, 3) == 0) {
+        double room = background < 0.5 ? background : 0.99 - background;
+        params.noise = room * next_below(random, 100) / 100;
+        params.noise_symmetric = (int32_t)next_below(random, 2);
+    }
+    if (next_below(random, 5) == 0) {
+        params.noise = 0;
+        params.background_at = patchy_background;
+    }
+    if (next_below(random, 5) == 0)
+        params.addition_at = patchy_addition;
+    switch (next_below(random, 4)) {
+    case 0:
+        params.cluster = size < other ? (size + 1) / 2 : (other + 1) / 2;
+        break;
+    case 1:
+        scatter_seeds(&params, seeds, random);
+        break;
+    default:
+        break;
+    }
+    return params;
+}
+
+static void random_scenes(void **state)
+{
+    (void)state;
+    snow_isa isas[8];
+    size_t count = available_isas(isas);
+    uint64_t random = 2005;
+    for (int scene = 0; scene < 80; scene++) {
+        snow_cell seeds[6];
+        snow_reiter_params params = random_scene(&random, seeds);
+        for (size_t i = 0; i < count; i++) {
+            snow_options options = random_options(&random, isas[i]);
+            assert_equal_growth(&params, &options, 6);
+        }
+    }
+}
+
+/* The lattice in three colours, none next to itself: a cell of the first has six neighbours of the others. */
+static double three_colours(void *context, int32_t q, int32_t r)
+{
+    const double *colours = context;
+    int32_t colour = ((q - r) % 3 + 3) % 3;
+    return colour == 0 ? colours[0] + (double)(q % 5) / 1024 : colours[1];
+}
+
+/* With α > 2 vapour overshoots: v′ = 1.3·mean − 0.3·v for α = 2.6. */
+static snow_reiter_params overshooting_scene(double colours[2])
+{
+    snow_reiter_params params = disc_scene(0.5, 0.001, 2.6, 15);
+    without_seeds(&params);
+    params.background_at = three_colours;
+    params.field_context = colours;
+    params.record_freeze_steps = 1;
+    return params;
+}
+
+static void assert_equal_growth_on_all_isas(const snow_reiter_params *params)
+{
+    snow_isa isas[8];
+    size_t count = available_isas(isas);
+    uint64_t random = 13;
+    for (size_t i = 0; i < count; i++) {
+        snow_options options = random_options(&random, isas[i]);
+        assert_equal_growth(params, &options, 7);
+    }
+}
+
+static void vapour_freezes_by_itself(void **state)
+{
+    (void)state;
+    double colours[2] = {0.96, 0.99};
+    snow_reiter_params params = overshooting_scene(colours);
+    snow_grid *grid = make_grid(&params, NULL);
+    uint64_t cells = cells_of(grid);
+    assert_int_equal(0, frozen_of(grid));
+    assert_ok(snow_step(grid, 1));
+    /* 1.287 - 0.3 * 0.96 falls short of 1; 4/1024 less in the first colour is enough. */
+    assert_true(frozen_of(grid) > cells / 60);
+    assert_true(frozen_of(grid) < cells / 20);
+    snow_destroy(grid);
+    assert_equal_growth_on_all_isas(&params);
+}
+
+static void vapour_falls_below_zero(void **state)
+{
+    (void)state;
+    double colours[2] = {0.9, 0.1};
+    snow_reiter_params params = overshooting_scene(colours);
+    snow_grid *grid = make_grid(&params, NULL);
+    assert_ok(snow_step(grid, 1));
+    size_t count;
+    double *values = copy_field(grid, SNOW_FIELD_VALUE, NULL, &count);
+    size_t below = 0;
+    for (size_t i = 0; i < count; i++)
+        below += values[i] < 0;
+    assert_true(below > 200);
+    free(values);
+    snow_destroy(grid);
+    assert_equal_growth_on_all_isas(&params);
+
+    static const snow_cell seed = {2, 1};
+    params.seeds = &seed;
+    params.seed_count = 1;
+    assert_equal_growth_on_all_isas(&params);
+}
+
+/* By REFERENCE, and by ROWS on each instruction set: until the end of a run. */
+static void whole_runs(void **state)
+{
+    (void)state;
+    snow_isa isas[8];
+    size_t count = available_isas(isas);
+    snow_reiter_params params = disc_scene(0.4, 0.001, 1, 60);
+    params.record_freeze_steps = 1;
+    params.engine = SNOW_REITER_ENGINE_REFERENCE;
+    snow_grid *reference = make_grid(&params, NULL);
+    snow_summary expected = run_grid(reference, NULL);
+    assert_int_equal(SNOW_STOP_RIM, expected.reason);
+    for (size_t i = 0; i < count; i++) {
+        params.engine = SNOW_REITER_ENGINE_ROWS;
+        snow_options options = default_options();
+        options.isa = isas[i];
+        options.threads = (int32_t)i + 2;
+        snow_grid *rows = make_grid(&params, &options);
+        snow_summary got = run_grid(rows, NULL);
+        assert_int_equal(expected.reason, got.reason);
+        assert_same_grids(reference, rows);
+        snow_destroy(rows);
+    }
+    snow_destroy(reference);
+}
+
+static void auto_is_a_fast_engine_with_the_same_bits(void **state)
+{
+    (void)state;
+    snow_reiter_params params = disc_scene(0.4, 0.001, 1, 30);
+    params.engine = SNOW_REITER_ENGINE_ROWS;
+    snow_grid *rows = make_grid(&params, NULL);
+    params.engine = SNOW_REITER_ENGINE_AUTO;
+    snow_grid *automatic = make_grid(&params, NULL);
+    assert_ok(snow_step(rows, 150));
+    assert_ok(snow_step(automatic, 150));
+    assert_same_grids(rows, automatic);
+    snow_destroy(rows);
+    snow_destroy(automatic);
+}
+
+/* To the stop: which cells are ice does not depend on rounding. */
+static void ice_equals_that_of_quad(void **state)
+{
+    (void)state;
+    snow_reiter_params scenes[] = {
+        disc_scene(0.4, 0.001, 1, 40),  disc_scene(0.6, 0.01, 1, 45),     disc_scene(0.95, 0.05, 1, 40),
+        disc_scene(0.5, 0.001, 2.6, 40), hexagon_scene(0.4, 0.01, 0.5, 40), rectangle_scene(0.35, 0.05, 1, 50, 50),
+        disc_scene(0.4, 0.005, 1, 40),
+    };
+    scenes[COUNT_OF(scenes) - 1].noise = 0.1;
+    for (size_t i = 0; i < COUNT_OF(scenes); i++) {
+        scenes[i].record_freeze_steps = 1;
+        scenes[i].engine = SNOW_REITER_ENGINE_QUAD;
+        snow_grid *quad = make_grid(&scenes[i], NULL);
+        snow_summary expected = run_grid(quad, NULL);
+        scenes[i].engine = SNOW_REITER_ENGINE_AUTO;
+        snow_grid *grid = make_grid(&scenes[i], NULL);
+        snow_summary got = run_grid(grid, NULL);
+        assert_int_equal(expected.reason, got.reason);
+        assert_int_equal(expected.steps, got.steps);
+        assert_same_ice(quad, grid);
+        size_t count;
+        double *left = copy_field(quad, SNOW_FIELD_FREEZE_STEP, NULL, &count);
+        double *right = copy_field(grid, SNOW_FIELD_FREEZE_STEP, NULL, NULL);
+        assert_memory_equal(left, right, count * sizeof *left);
+        free(left);
+        free(right);
+        snow_destroy(quad);
+        snow_destroy(grid);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_isa_thread_count_and_loop_on_a_disc),
+        cmocka_unit_test(every_isa_thread_count_and_loop_on_a_rectangle),
+        cmocka_unit_test(every_width_of_row),
+        cmocka_unit_test(every_small_disc_and_hexagon),
+        cmocka_unit_test(random_scenes),
+        cmocka_unit_test(vapour_freezes_by_itself),
+        cmocka_unit_test(vapour_falls_below_zero),
+        cmocka_unit_test(whole_runs),
+        cmocka_unit_test(auto_is_a_fast_engine_with_the_same_bits),
+        cmocka_unit_test(ice_equals_that_of_quad),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
