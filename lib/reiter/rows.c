@@ -82,7 +82,8 @@ static void put(snow_grid *grid, int32_t q, int32_t r, const reiter_cell *cell)
     if (cells->state[i] != CELL_OTHER)
         cells->state[i] = cell->frozen ? CELL_FROZEN : cell->receptive ? CELL_FRONT : CELL_VAPOUR;
     cells->vapour[cells->now][i] = cell->value;
-    cells->place[i] = (uint32_t)grid->census.steps - cell->additions;
+    if (cell->frozen || cell->receptive) /* elsewhere the memory need not even be touched */
+        cells->place[i] = (uint32_t)grid->census.steps - cell->additions;
 }
 
 static bool is_frozen(const snow_grid *grid, int32_t q, int32_t r)

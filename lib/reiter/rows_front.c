@@ -206,9 +206,9 @@ static void list_settled(const snow_grid *grid, snow_cell at)
 {
     rows *cells = rows_of(grid);
     uint32_t number = (uint32_t)rows_number(cells, at.q, at.r);
-    receptive_cell cell = {number, cells->place[number], cells->vapour[cells->now][number]};
     if (cells->state[number] == CELL_VAPOUR)
         return;
+    receptive_cell cell = {number, cells->place[number], cells->vapour[cells->now][number]};
     if (cells->state[number] == CELL_FROZEN && snow_rows_touches_fixed(grid, at.q, at.r))
         cells->state[number] = CELL_FED;
     if (cells->state[number] == CELL_FROZEN)
