@@ -2,6 +2,8 @@
    are those of gcc and clang, as wide as the instruction set has them. */
 #include "reiter/kernel.h"
 
+#include <string.h>
+
 #if defined(__AVX2__) || defined(__FMA__)
 #include <immintrin.h>
 #endif
@@ -56,40 +58,47 @@ static inline vector combine(vector x, vector y, vector z)
 #endif
 }
 
-/* x + z, where there are fused instructions on their units: those for plain
-   additions are the ones that the kernel runs out of. */
-static inline vector plus(vector x, vector z, vector one)
-{
-#if defined(__AVX2__) && defined(__FMA__) && !defined(__AVX512F__)
-    return combine(x, one, z);
+/* Keeps a loaded vector in its register; compilers would rather load it again. */
+#if defined(__x86_64__) || defined(__i386__)
+#define KEEP(x) __asm__("" : "+x"(x))
 #else
-    (void)one;
-    return x + z;
+#define KEEP(x) ((void)0)
 #endif
-}
 
 /* What stays the same for all cells of a step. */
 typedef struct constants {
     vector weight;
     vector rounder;
     vector minus_six;
-    vector one;
 } constants;
 
 static inline constants constants_of(const reiter_flow *flow)
 {
-    return (constants){spread(flow->weight), spread(flow->rounder), spread(-6), spread(flow->one)};
+    return (constants){spread(flow->weight), spread(flow->rounder), spread(-6)};
 }
 
-/* What flows into the cells at row, rounded to the quantum. The sum is exact
-   (doc/reiter.md), so its order is free. */
-static inline vector inflow(const double *row, const double *above, const double *below, vector centre,
-                            const constants *with)
+/* A row's cells at one place: themselves, and shifted by one. */
+typedef struct row_cells {
+    vector left;
+    vector here;
+    vector right;
+} row_cells;
+
+static inline row_cells load_row(const double *at)
 {
-    vector level = load(row - 1) + load(row + 1);
-    vector up = load_aligned(above) + load(above + 1);
-    vector down = load(below - 1) + load_aligned(below);
-    vector sum = plus(level, combine(centre, with->minus_six, plus(up, down, with->one)), with->one);
+    row_cells cells = {load(at - 1), load_aligned(at), load(at + 1)};
+    KEEP(cells.left);
+    KEEP(cells.here);
+    KEEP(cells.right);
+    return cells;
+}
+
+/* What flows into the cells of a row, rounded to the quantum. The sum is exact
+   (doc/reiter.md), so its order is free. */
+static inline vector inflow(vector above_sum, row_cells row, vector below_sum, const constants *with)
+{
+    vector level = row.left + row.right;
+    vector sum = level + combine(row.here, with->minus_six, above_sum + below_sum);
     return (with->weight * sum + with->rounder) - with->rounder;
 }
 
@@ -117,54 +126,79 @@ static inline bool any(lanes flags)
 #endif
 }
 
-/* One chunk, of which the mask names the cells; says whether anything flows. */
-static inline bool border_chunk(const reiter_flow *flow, size_t row, size_t above, size_t below, uint8_t mask)
+/* The four rows of a band at one place, each with the flow that it gets. */
+typedef struct band_flow {
+    vector here[REITER_BAND];
+    vector flow[REITER_BAND];
+} band_flow;
+
+static inline band_flow flow_at(const double *row, const double *above, const double *below, size_t stride,
+                                const constants *with)
 {
-    const double *vapour = flow->vapour;
+    row_cells r0 = load_row(row);
+    row_cells r1 = load_row(row + stride);
+    vector above_sum = load_aligned(above) + load(above + 1);
+    vector f0 = inflow(above_sum, r0, r1.left + r1.here, with);
+    row_cells r2 = load_row(row + 2 * stride);
+    vector f1 = inflow(r0.here + r0.right, r1, r2.left + r2.here, with);
+    row_cells r3 = load_row(row + 3 * stride);
+    vector f2 = inflow(r1.here + r1.right, r2, r3.left + r3.here, with);
+    vector below_sum = load(below - 1) + load_aligned(below);
+    vector f3 = inflow(r2.here + r2.right, r3, below_sum, with);
+    return (band_flow){{r0.here, r1.here, r2.here, r3.here}, {f0, f1, f2, f3}};
+}
+
+static inline bool is_full(const reiter_segment *segment)
+{
+    uint32_t masks;
+    memcpy(&masks, segment->mask, sizeof masks);
+    return masks == UINT32_MAX;
+}
+
+static void full_segment(const reiter_flow *flow, const reiter_segment *segment)
+{
+    const double *row = flow->vapour + segment->row;
+    const double *above = flow->vapour + segment->above;
+    const double *below = flow->vapour + segment->below;
+    double *next = flow->next + segment->row;
+    size_t stride = segment->stride;
+    constants with = constants_of(flow);
+    for (size_t i = 0; i < (size_t)segment->chunks * REITER_CHUNK; i += LANES) {
+        band_flow band = flow_at(row + i, above + i, below + i, stride, &with);
+        store_aligned(next + i, band.here[0] + band.flow[0]);
+        store_aligned(next + stride + i, band.here[1] + band.flow[1]);
+        store_aligned(next + 2 * stride + i, band.here[2] + band.flow[2]);
+        store_aligned(next + 3 * stride + i, band.here[3] + band.flow[3]);
+    }
+}
+
+/* One chunk, of which the masks name the cells; says whether anything flows. */
+static inline bool masked_chunk(const reiter_flow *flow, const reiter_segment *segment, size_t shift)
+{
+    const double *row = flow->vapour + segment->row + shift;
+    const double *above = flow->vapour + segment->above + shift;
+    const double *below = flow->vapour + segment->below + shift;
+    double *next = flow->next + segment->row + shift;
     constants with = constants_of(flow);
     lanes flowing = {0};
     for (int i = 0; i < REITER_CHUNK; i += LANES) {
-        vector centre = load_aligned(vapour + row + i);
-        vector flowed = inflow(vapour + row + i, vapour + above + i, vapour + below + i, centre, &with);
-        flowed = (vector)((lanes)flowed & lanes_of(mask, i));
-        flowing |= flowed != (vector){0};
-        store_aligned(flow->next + row + i, centre + flowed);
+        band_flow band = flow_at(row + i, above + i, below + i, segment->stride, &with);
+        for (int own = 0; own < REITER_BAND; own++) {
+            vector flowed = (vector)((lanes)band.flow[own] & lanes_of(segment->mask[own], i));
+            flowing |= flowed != (vector){0};
+            store_aligned(next + (size_t)own * segment->stride + i, band.here[own] + flowed);
+        }
     }
     return any(flowing);
-}
-
-/* Whole chunks from the one at `row` on. */
-static inline void inner_chunks(const reiter_flow *flow, size_t row, size_t above, size_t below, size_t chunks)
-{
-    const double *row_cells = flow->vapour + row;
-    const double *up = flow->vapour + above;
-    const double *down = flow->vapour + below;
-    double *next = flow->next + row;
-    constants with = constants_of(flow);
-    for (size_t i = 0; i < chunks * REITER_CHUNK; i += LANES) {
-        vector vapour = load_aligned(row_cells + i);
-        vector flowed = inflow(row_cells + i, up + i, down + i, vapour, &with);
-        store_aligned(next + i, plus(flowed, vapour, with.one));
-    }
 }
 
 static void diffuse(const reiter_flow *flow, const reiter_segment *segments, size_t count)
 {
     for (const reiter_segment *segment = segments; segment < segments + count; segment++) {
-        size_t row = segment->row;
-        size_t above = segment->above;
-        size_t below = segment->below;
-        size_t first = segment->first_mask != 0xFF;
-        size_t end = segment->chunks;
-        if (first)
-            border_chunk(flow, row, above, below, segment->first_mask);
-        if (end > first && segment->last_mask != 0xFF) {
-            end--;
-            size_t shift = end * REITER_CHUNK;
-            border_chunk(flow, row + shift, above + shift, below + shift, segment->last_mask);
-        }
-        size_t shift = first * REITER_CHUNK;
-        inner_chunks(flow, row + shift, above + shift, below + shift, end - first);
+        if (is_full(segment))
+            full_segment(flow, segment);
+        else
+            masked_chunk(flow, segment, 0);
     }
 }
 
@@ -172,11 +206,8 @@ static void diffuse_and_look(const reiter_flow *flow, const reiter_segment *segm
 {
     for (const reiter_segment *segment = segments; segment < segments + count; segment++) {
         for (size_t chunk = 0; chunk < segment->chunks; chunk++) {
-            uint8_t mask = chunk == 0 ? segment->first_mask : 0xFF;
-            mask &= chunk == segment->chunks - 1 ? segment->last_mask : 0xFF;
-            size_t shift = chunk * REITER_CHUNK;
             size_t bit = segment->bit + chunk;
-            if (border_chunk(flow, segment->row + shift, segment->above + shift, segment->below + shift, mask))
+            if (masked_chunk(flow, segment, chunk * REITER_CHUNK))
                 flowing[bit / 64] |= UINT64_C(1) << bit % 64;
         }
     }
@@ -187,10 +218,12 @@ static bool exceeds(const double *cells, const reiter_segment *segments, size_t 
     lanes beyond = {0};
     vector greatest = spread(limit);
     for (const reiter_segment *segment = segments; segment < segments + count; segment++) {
-        const double *row = cells + segment->row;
-        for (size_t i = 0; i < (size_t)segment->chunks * REITER_CHUNK; i += LANES) {
-            vector value = load_aligned(row + i);
-            beyond |= ~((value <= greatest) & (value >= -greatest));
+        for (size_t own = 0; own < REITER_BAND; own++) {
+            const double *row = cells + segment->row + own * segment->stride;
+            for (size_t i = 0; i < (size_t)segment->chunks * REITER_CHUNK; i += LANES) {
+                vector value = load_aligned(row + i);
+                beyond |= ~((value <= greatest) & (value >= -greatest));
+            }
         }
     }
     return any(beyond);

@@ -6,19 +6,22 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* Rows are computed in whole chunks of this many cells, aligned in memory. */
-enum { REITER_CHUNK = 8 };
+/* Cells are computed in whole chunks, aligned in memory: so many cells of each
+   of so many rows, a band. Rows of a band share what they load: a cell is the
+   right neighbour of one, and of two in the rows beside it. */
+enum { REITER_CHUNK = 8, REITER_BAND = 4 };
 
-/* A run of chunks of one row. Cells of its first and last chunk that are not
-   the row's own keep their values: a mask has a bit for each that is. */
+/* Chunks side by side. Cells that are not to be computed keep their values: a
+   mask for each row has a bit for each cell of a chunk that is. Segments with
+   other masks than full ones are one chunk long. */
 typedef struct reiter_segment {
-    uint32_t row;    /* number of the first cell */
+    uint32_t row;    /* number of the first cell of the first row */
     uint32_t above;  /* of the cell above it: same q, r − 1 */
-    uint32_t below;  /* same q, r + 1 */
+    uint32_t below;  /* of the cell below the last row: same q */
+    uint32_t stride; /* from a row to the next */
     uint32_t chunks; /* at least 1 */
-    uint32_t bit;    /* where its chunks stand in a map of chunks */
-    uint8_t first_mask;
-    uint8_t last_mask;
+    uint32_t bit;    /* where they stand in a map of chunks */
+    uint8_t mask[REITER_BAND];
 } reiter_segment;
 
 typedef struct reiter_flow {
@@ -26,7 +29,6 @@ typedef struct reiter_flow {
     double *next;
     double weight;  /* α/12 */
     double rounder; /* adding and subtracting it rounds a flow to the quantum */
-    double one;     /* 1, so that the compiler does not know it */
 } reiter_flow;
 
 typedef struct reiter_kernel {

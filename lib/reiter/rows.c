@@ -163,7 +163,6 @@ static void diffuse(const snow_grid *grid, row_block *block)
         .next = next_of(cells),
         .weight = model->params.diffusion / 12,
         .rounder = reiter_rounder(model),
-        .one = 1,
     };
     if (looks(grid))
         cells->kernel->diffuse_and_look(&flow, segments, block->segments, cells->flowing);
@@ -234,7 +233,7 @@ static snow_status step(snow_grid *grid)
     if (cells->stale)
         snow_rows_list_segments(cells);
     if (looking)
-        memset(cells->flowing, 0, cells->words * (size_t)cells->part.rows * sizeof *cells->flowing);
+        memset(cells->flowing, 0, cells->words * (size_t)cells->bands * sizeof *cells->flowing);
     snow_status status = diffuse_and_collect(grid);
     if (status != SNOW_OK)
         return status;

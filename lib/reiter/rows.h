@@ -1,9 +1,11 @@
 /* The ROWS engine: the fundamental part of the plane in two dense arrays of
    vapour that take turns, everything about ice beside them.
 
-   Rows are stored in whole chunks, a chunk at the same columns in every row.
-   Stored cells that are not of the part are fixed cells, ghosts (images of
-   cells of the part, copied after each step) or padding. */
+   Rows are stored in bands, whose rows are equally long and made of whole
+   chunks, a chunk at the same columns in every band. One more band stands above
+   the part and one below. Stored cells that are not of the part are fixed
+   cells, ghosts (images of cells of the part, copied after each step) or
+   padding. */
 #ifndef SNOW_REITER_ROWS_H
 #define SNOW_REITER_ROWS_H
 
@@ -25,13 +27,20 @@ typedef struct receptive_cell {
     double collected; /* what it had and collected, without additions */
 } receptive_cell;
 
-/* Rows that one task computes. Its cells have as much room in `listed` as
+/* Where a band is stored. */
+typedef struct stored_band {
+    int32_t first; /* column */
+    uint32_t stride;
+    size_t base; /* number of its first cell */
+} stored_band;
+
+/* Bands that one task computes. Its cells have as much room in `listed` as
    there are of them: those that collect (the front, and fed ice) from `first`
    up, other ice from `end` down, what has just frozen last. The two never meet,
    so that a step needs no memory. */
 typedef struct row_block {
-    int32_t first_row; /* of the part */
-    int32_t end_row;
+    int32_t first_band; /* of the part */
+    int32_t end_band;
     size_t first; /* of the cells, as stored */
     size_t end;
     size_t front;           /* cells that collect */
@@ -54,8 +63,9 @@ typedef struct rows {
     const reiter_kernel *kernel;
     snow_domain part;
     size_t count;      /* stored cells */
-    int64_t *offset;   /* cell (q, r) of the part or next to it: offset[r − top + 1] + q */
-    int32_t *first;    /* first stored column of these rows */
+    int32_t bands;     /* of the part; the last may reach beyond it */
+    stored_band *band; /* band n of the part is band[n + 1] */
+    int64_t *offset;   /* cell (q, r) is number offset[r − top + REITER_BAND] + q */
     double *vapour[2]; /* 0 where receptive */
     int now;           /* which of the two holds the present step */
     double fixed;      /* of the fixed cells, where the part is not the whole */
@@ -68,7 +78,7 @@ typedef struct rows {
     row_block *block;
     size_t blocks;
 
-    /* Maps of chunks, `words` words for each row of the part: see rows_active.c. */
+    /* Maps of chunks, `words` words for each band of the part: see rows_active.c. */
     int32_t first_column;
     size_t words;
     uint64_t *valid;   /* holds cells of the part */
@@ -89,12 +99,20 @@ static inline rows *rows_of(const snow_grid *grid)
 /* Of a cell of the part, or next to it. */
 static inline size_t rows_number(const rows *cells, int32_t q, int32_t r)
 {
-    return (size_t)(cells->offset[r - cells->part.top + 1] + q);
+    return (size_t)(cells->offset[r - cells->part.top + REITER_BAND] + q);
+}
+
+static inline int32_t rows_chunk_floor(int32_t q)
+{
+    int32_t rest = q % REITER_CHUNK;
+    return q - (rest < 0 ? rest + REITER_CHUNK : rest);
 }
 
 /* rows_layout.c */
 snow_status snow_rows_create(snow_grid *grid);
 void snow_rows_destroy(snow_grid *grid);
+/* The columns of a band that hold cells of the part, in whole chunks; *first >= *end: none. */
+void snow_rows_columns(const rows *cells, int32_t band, int32_t *first, int32_t *end);
 /* Whether a neighbour of a cell of the part is fixed. */
 bool snow_rows_touches_fixed(const snow_grid *grid, int32_t q, int32_t r);
 /* Ghosts get the values of the cells that they are images of. */

@@ -75,12 +75,14 @@ void snow_rows_overshoot(const snow_grid *grid, row_block *block, const double *
     }
 }
 
-/* The row of a stored cell, by halving: 0 is the one above the part. */
-static int32_t row_of(const rows *cells, size_t i, int32_t first, int32_t end)
+/* The band of the part that a cell of a block is stored in, by halving. */
+static int32_t band_of(const rows *cells, const row_block *block, size_t i)
 {
+    int32_t first = block->first_band;
+    int32_t end = block->end_band;
     while (end - first > 1) {
         int32_t middle = first + (end - first) / 2;
-        if ((size_t)(cells->offset[middle] + cells->first[middle]) <= i)
+        if (cells->band[middle + 1].base <= i)
             first = middle;
         else
             end = middle;
@@ -90,8 +92,11 @@ static int32_t row_of(const rows *cells, size_t i, int32_t first, int32_t end)
 
 static snow_cell locate(const rows *cells, const row_block *block, size_t i)
 {
-    int32_t row = row_of(cells, i, block->first_row + 1, block->end_row + 1);
-    return (snow_cell){(int32_t)((int64_t)i - cells->offset[row]), cells->part.top + row - 1};
+    int32_t band = band_of(cells, block, i);
+    const stored_band *stored = &cells->band[band + 1];
+    uint32_t within = (uint32_t)(i - stored->base);
+    int32_t row = band * REITER_BAND + (int32_t)(within / stored->stride);
+    return (snow_cell){stored->first + (int32_t)(within % stored->stride), cells->part.top + row};
 }
 
 static row_block *block_of(const rows *cells, uint32_t number)

@@ -4,54 +4,67 @@
 #include <stdlib.h>
 #include <string.h>
 
-static int32_t chunk_floor(int32_t q)
-{
-    int32_t rest = q % REITER_CHUNK;
-    return q - (rest < 0 ? rest + REITER_CHUNK : rest);
-}
-
 static int32_t chunk_ceiling(int32_t q)
 {
-    return chunk_floor(q + REITER_CHUNK - 1);
+    return rows_chunk_floor(q + REITER_CHUNK - 1);
 }
 
 static const int neighbour_q[6] = {1, -1, 0, 0, 1, -1};
 static const int neighbour_r[6] = {0, 0, 1, -1, -1, 1};
 
-/* Every chunk of the part is computed whole, from all neighbours of its cells. */
-static void stored_columns(const snow_domain *part, int32_t r, int32_t *first, int32_t *end)
+void snow_rows_columns(const rows *cells, int32_t band, int32_t *first, int32_t *end)
 {
     *first = INT32_MAX;
     *end = INT32_MIN;
-    for (int32_t from = r - 1; from <= r + 1; from++) {
-        const snow_run_of_cells *run = snow_domain_row(part, from);
-        if (run->first == run->end)
+    for (int32_t row = band * REITER_BAND; row < (band + 1) * REITER_BAND; row++) {
+        if (row < 0 || row >= cells->part.rows)
             continue;
-        int32_t left = chunk_floor(chunk_floor(run->first) - 1);
-        int32_t right = chunk_ceiling(chunk_ceiling(run->end) + 1);
+        const snow_run_of_cells *run = &cells->part.run[row];
+        int32_t left = rows_chunk_floor(run->first);
+        int32_t right = chunk_ceiling(run->end);
         *first = left < *first ? left : *first;
         *end = right > *end ? right : *end;
     }
 }
 
-static snow_status place_rows(rows *cells, snow_heap *heap)
+/* Every chunk is computed whole, from all neighbours of its cells, also those
+   in the bands beside it. */
+static void stored_columns(const rows *cells, int32_t band, int32_t *first, int32_t *end)
 {
-    const snow_domain *part = &cells->part;
-    size_t stored_rows = (size_t)part->rows + 2;
-    cells->offset = snow_heap_get(heap, stored_rows, sizeof *cells->offset);
-    cells->first = snow_heap_get(heap, stored_rows + 1, sizeof *cells->first);
-    if (cells->offset == NULL || cells->first == NULL)
+    *first = INT32_MAX;
+    *end = INT32_MIN;
+    for (int32_t from = band - 1; from <= band + 1; from++) {
+        int32_t left;
+        int32_t right;
+        snow_rows_columns(cells, from, &left, &right);
+        if (left >= right)
+            continue;
+        *first = left - REITER_CHUNK < *first ? left - REITER_CHUNK : *first;
+        *end = right + REITER_CHUNK > *end ? right + REITER_CHUNK : *end;
+    }
+}
+
+static snow_status place_bands(rows *cells, snow_heap *heap)
+{
+    cells->bands = (cells->part.rows + REITER_BAND - 1) / REITER_BAND;
+    size_t stored = (size_t)cells->bands + 2;
+    cells->band = snow_heap_get(heap, stored + 1, sizeof *cells->band);
+    cells->offset = snow_heap_get(heap, stored * REITER_BAND, sizeof *cells->offset);
+    if (cells->band == NULL || cells->offset == NULL)
         return heap->refusal;
-    int64_t count = 0;
-    for (int32_t row = 0; row < (int32_t)stored_rows; row++) {
+    size_t count = 0;
+    for (size_t i = 0; i < stored; i++) {
         int32_t first;
         int32_t end;
-        stored_columns(part, part->top - 1 + row, &first, &end);
-        cells->first[row] = first;
-        cells->offset[row] = count - first;
-        count += end - first;
+        stored_columns(cells, (int32_t)i - 1, &first, &end);
+        uint32_t stride = (uint32_t)(end - first);
+        cells->band[i] = (stored_band){first, stride, count};
+        for (size_t row = 0; row < REITER_BAND; row++)
+            cells->offset[i * REITER_BAND + row] = (int64_t)(count + row * stride) - first;
+        count += (size_t)REITER_BAND * stride;
     }
-    cells->count = (size_t)count;
+    cells->band[stored].base = count;
+    cells->count = count;
     return count < UINT32_MAX ? SNOW_OK : SNOW_ERROR_TOO_LARGE;
 }
 
@@ -138,36 +151,35 @@ static size_t count_blocks(const snow_grid *grid, const rows *cells)
     size_t blocks = threads > 1 ? threads * BLOCKS_PER_THREAD : 1;
     size_t most = cells->part.cells / LEAST_CELLS + 1;
     blocks = blocks < most ? blocks : most;
-    return blocks < (size_t)cells->part.rows ? blocks : (size_t)cells->part.rows;
+    return blocks < (size_t)cells->bands ? blocks : (size_t)cells->bands;
 }
 
-/* In a row: every second chunk, and none goes from one word to the next. */
-static size_t most_segments(const rows *cells, int32_t row)
+/* At most a segment for each chunk. */
+static size_t most_segments(const rows *cells, int32_t band)
 {
-    const snow_run_of_cells *run = &cells->part.run[row];
-    return (size_t)(run->end - run->first) / (2 * REITER_CHUNK) + 2 + cells->words;
+    int32_t first;
+    int32_t end;
+    snow_rows_columns(cells, band, &first, &end);
+    return (size_t)(end - first) / REITER_CHUNK;
 }
 
 static void cut_blocks(rows *cells)
 {
     const snow_domain *part = &cells->part;
-    int32_t row = 0;
+    int32_t band = 0;
     size_t segments = 0;
     for (size_t i = 0; i < cells->blocks; i++) {
         row_block *block = &cells->block[i];
         uint64_t target = (uint64_t)part->cells * (i + 1) / cells->blocks;
-        int32_t rows_to_leave = (int32_t)(cells->blocks - 1 - i);
-        block->first_row = row;
-        do
-            row++;
-        while (row < part->rows - rows_to_leave && part->run[row].number < target);
-        block->end_row = row;
-        /* Row n of the part is stored row n + 1. */
-        block->first = (size_t)(cells->offset[block->first_row + 1] + cells->first[block->first_row + 1]);
-        block->end = (size_t)(cells->offset[block->end_row + 1] + cells->first[block->end_row + 1]);
+        int32_t bands_to_leave = (int32_t)(cells->blocks - 1 - i);
+        block->first_band = band;
         block->first_segment = segments;
-        for (int32_t own = block->first_row; own < block->end_row; own++)
-            segments += most_segments(cells, own);
+        do
+            segments += most_segments(cells, band++);
+        while (band < cells->bands - bands_to_leave && part->run[band * REITER_BAND].number < target);
+        block->end_band = band;
+        block->first = cells->band[block->first_band + 1].base;
+        block->end = cells->band[block->end_band + 1].base;
     }
 }
 
@@ -185,23 +197,24 @@ static snow_status place_blocks(const snow_grid *grid, snow_heap *heap)
 static snow_status place_maps(rows *cells, snow_heap *heap)
 {
     const snow_domain *part = &cells->part;
-    cells->first_column = chunk_floor(part->bounds.q);
+    cells->first_column = rows_chunk_floor(part->bounds.q);
     int32_t columns = chunk_ceiling(part->bounds.q + part->bounds.width) - cells->first_column;
     cells->words = (size_t)(columns / REITER_CHUNK + 63) / 64;
-    size_t size = cells->words * (size_t)part->rows;
+    size_t size = cells->words * (size_t)cells->bands;
     size_t segments = 0;
-    for (int32_t row = 0; row < part->rows; row++)
-        segments += most_segments(cells, row);
+    for (int32_t band = 0; band < cells->bands; band++)
+        segments += most_segments(cells, band);
     bool complete = (cells->valid = snow_heap_get(heap, size, sizeof(uint64_t))) != NULL &&
                     (cells->active = snow_heap_get(heap, size, sizeof(uint64_t))) != NULL &&
                     (cells->flowing = snow_heap_get(heap, size, sizeof(uint64_t))) != NULL &&
                     (cells->segment = snow_heap_get_raw(heap, segments, sizeof *cells->segment)) != NULL;
     if (!complete)
         return heap->refusal;
-    for (int32_t row = 0; row < part->rows; row++) {
-        const snow_run_of_cells *run = &part->run[row];
-        uint64_t *valid = cells->valid + (size_t)row * cells->words;
-        for (int32_t q = chunk_floor(run->first); q < run->end; q += REITER_CHUNK) {
+    for (int32_t band = 0; band < cells->bands; band++) {
+        uint64_t *valid = cells->valid + (size_t)band * cells->words;
+        int32_t q;
+        int32_t end;
+        for (snow_rows_columns(cells, band, &q, &end); q < end; q += REITER_CHUNK) {
             size_t chunk = (size_t)(q - cells->first_column) / REITER_CHUNK;
             valid[chunk / 64] |= UINT64_C(1) << chunk % 64;
         }
@@ -215,7 +228,7 @@ static snow_status place_part(snow_grid *grid)
     rows *cells = rows_of(grid);
     snow_status status = snow_group_fundamental(model->group, &grid->domain, &grid->heap, &cells->part);
     if (status == SNOW_OK)
-        status = place_rows(cells, &grid->heap);
+        status = place_bands(cells, &grid->heap);
     return status;
 }
 
@@ -245,7 +258,7 @@ void snow_rows_destroy(snow_grid *grid)
     snow_heap *heap = &grid->heap;
     snow_domain_end(&cells->part, heap);
     snow_heap_put(heap, cells->offset);
-    snow_heap_put(heap, cells->first);
+    snow_heap_put(heap, cells->band);
     snow_heap_put(heap, cells->vapour[0]);
     snow_heap_put(heap, cells->vapour[1]);
     snow_heap_put(heap, cells->place);
