@@ -73,7 +73,7 @@ static void spread_sideways(const rows *cells, uint64_t *band)
     }
 }
 
-static void gather_bands(const rows *cells, int32_t band)
+static void gather_bands(rows *cells, int32_t band)
 {
     uint64_t *active = map_band(cells, cells->active, band);
     const uint64_t *valid = map_band(cells, cells->valid, band);
@@ -84,6 +84,7 @@ static void gather_bands(const rows *cells, int32_t band)
         uint64_t any = 0;
         for (int32_t near = first; near < end; near++)
             any |= cells->flowing[(size_t)near * cells->words + i];
+        cells->stale = cells->stale || active[i] != (any & valid[i]);
         active[i] = any & valid[i];
     }
 }
@@ -91,16 +92,15 @@ static void gather_bands(const rows *cells, int32_t band)
 void snow_rows_choose_active(const snow_grid *grid)
 {
     rows *cells = rows_of(grid);
+    /* Where the part is cut off without a mirror, what leaves on one side comes
+       in on the other: then all is computed, always. */
+    snow_group group = reiter_of(grid)->group;
+    if (group != SNOW_GROUP_TRIVIAL && !snow_group_reflects(group))
+        return;
     for (int32_t band = 0; band < cells->bands; band++)
         spread_sideways(cells, map_band(cells, cells->flowing, band));
     for (int32_t band = 0; band < cells->bands; band++)
         gather_bands(cells, band);
-    /* Where the part is cut off without a mirror, what leaves on one side comes
-       in on the other: then all is computed. */
-    snow_group group = reiter_of(grid)->group;
-    if (group != SNOW_GROUP_TRIVIAL && !snow_group_reflects(group))
-        snow_rows_wake_all(cells);
-    cells->stale = true;
 }
 
 /* The cells of a row that lie in the chunk from column q on. */
