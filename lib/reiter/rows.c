@@ -233,7 +233,7 @@ static snow_status step(snow_grid *grid)
     if (cells->stale)
         snow_rows_list_segments(cells);
     if (looking)
-        memset(cells->flowing, 0, cells->words * (size_t)cells->bands * sizeof *cells->flowing);
+        memset(cells->flowing, 0, cells->map_words * sizeof *cells->flowing);
     snow_status status = diffuse_and_collect(grid);
     if (status != SNOW_OK)
         return status;

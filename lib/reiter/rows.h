@@ -27,11 +27,15 @@ typedef struct receptive_cell {
     double collected; /* what it had and collected, without additions */
 } receptive_cell;
 
-/* Where a band is stored. */
+/* Where a band is stored, and where it stands in the maps of chunks. There the
+   chunk at column 0 is bit 0 of word 0, in every band. */
 typedef struct stored_band {
     int32_t first; /* column */
     uint32_t stride;
     size_t base; /* number of its first cell */
+    int32_t first_word;
+    int32_t words;
+    size_t map; /* where its words are in a map */
 } stored_band;
 
 /* Bands that one task computes. Its cells have as much room in `listed` as
@@ -78,18 +82,14 @@ typedef struct rows {
     row_block *block;
     size_t blocks;
 
-    /* Maps of chunks, `words` words for each band of the part: see rows_active.c. */
-    int32_t first_column;
-    size_t words;
+    /* Maps of chunks: see rows_active.c. */
+    size_t map_words;
     uint64_t *valid;   /* holds cells of the part */
     uint64_t *active;  /* may change before the next look */
     uint64_t *flowing; /* changed in the step of the last look */
     reiter_segment *segment;
     bool stale; /* the segments are not those of `active` */
 } rows;
-
-/* Steps between two looks at which chunks change; not more than a chunk has columns. */
-enum { ROWS_LOOK_STEPS = 8 };
 
 static inline rows *rows_of(const snow_grid *grid)
 {
@@ -102,10 +102,35 @@ static inline size_t rows_number(const rows *cells, int32_t q, int32_t r)
     return (size_t)(cells->offset[r - cells->part.top + REITER_BAND] + q);
 }
 
+/* Steps between two looks at which chunks change; not more than a chunk has columns. */
+enum { ROWS_LOOK_STEPS = 8 };
+
+/* How far something may come in that time, in bands; in chunks it is one. */
+enum { ROWS_REACH = (ROWS_LOOK_STEPS + REITER_BAND - 1) / REITER_BAND };
+
 static inline int32_t rows_chunk_floor(int32_t q)
 {
     int32_t rest = q % REITER_CHUNK;
     return q - (rest < 0 ? rest + REITER_CHUNK : rest);
+}
+
+/* The words of a band in a map; its bits are numbered by chunk, from 64·first_word. */
+typedef struct map_band {
+    uint64_t *word;
+    int32_t first_word;
+    int32_t words;
+} map_band;
+
+static inline map_band rows_map(const rows *cells, uint64_t *map, int32_t band)
+{
+    const stored_band *stored = &cells->band[band + 1];
+    return (map_band){map + stored->map, stored->first_word, stored->words};
+}
+
+static inline void rows_set_bit(map_band band, int32_t chunk)
+{
+    uint32_t bit = (uint32_t)(chunk - 64 * band.first_word);
+    band.word[bit / 64] |= UINT64_C(1) << bit % 64;
 }
 
 /* rows_layout.c */

@@ -9,42 +9,29 @@
 
 #include <string.h>
 
-/* How far something may come until the next look, in bands; in chunks it is one. */
-enum { REACH_IN_BANDS = (ROWS_LOOK_STEPS + REITER_BAND - 1) / REITER_BAND };
-
-static uint64_t *map_band(const rows *cells, uint64_t *map, int32_t band)
-{
-    return map + (size_t)band * cells->words;
-}
-
 void snow_rows_wake_all(rows *cells)
 {
-    memcpy(cells->active, cells->valid, (size_t)cells->bands * cells->words * sizeof *cells->active);
+    memcpy(cells->active, cells->valid, cells->map_words * sizeof *cells->active);
     cells->stale = true;
 }
 
-static void set_bit(uint64_t *band, int64_t chunk)
+static bool has_bit(map_band band, int32_t chunk)
 {
-    band[chunk / 64] |= UINT64_C(1) << chunk % 64;
+    int32_t bit = chunk - 64 * band.first_word;
+    return bit >= 0 && bit < 64 * band.words && (band.word[bit / 64] >> bit % 64 & 1) != 0;
 }
 
-static bool has_bit(const uint64_t *band, int64_t chunk)
+static void wake_around(rows *cells, int32_t band, int32_t chunk)
 {
-    return (band[chunk / 64] >> chunk % 64 & 1) != 0;
-}
-
-static void wake_around(rows *cells, int32_t band, int64_t chunk)
-{
-    int64_t last_chunk = (int64_t)cells->words * 64 - 1;
-    for (int32_t near = band - REACH_IN_BANDS; near <= band + REACH_IN_BANDS; near++) {
+    for (int32_t near = band - ROWS_REACH; near <= band + ROWS_REACH; near++) {
         if (near < 0 || near >= cells->bands)
             continue;
-        uint64_t *active = map_band(cells, cells->active, near);
-        const uint64_t *valid = map_band(cells, cells->valid, near);
-        for (int64_t at = chunk - 1; at <= chunk + 1; at++) {
-            if (at < 0 || at > last_chunk || !has_bit(valid, at) || has_bit(active, at))
+        map_band active = rows_map(cells, cells->active, near);
+        map_band valid = rows_map(cells, cells->valid, near);
+        for (int32_t at = chunk - 1; at <= chunk + 1; at++) {
+            if (!has_bit(valid, at) || has_bit(active, at))
                 continue;
-            set_bit(active, at);
+            rows_set_bit(active, at);
             cells->stale = true;
         }
     }
@@ -54,38 +41,44 @@ void snow_rows_wake(const snow_grid *grid, int32_t q, int32_t r, bool looking)
 {
     rows *cells = rows_of(grid);
     int32_t band = (r - cells->part.top) / REITER_BAND;
-    int64_t chunk = (q - cells->first_column) / REITER_CHUNK;
+    int32_t chunk = rows_chunk_floor(q) / REITER_CHUNK;
     if (looking)
-        set_bit(map_band(cells, cells->flowing, band), chunk);
+        rows_set_bit(rows_map(cells, cells->flowing, band), chunk);
     else
         wake_around(cells, band, chunk);
 }
 
 /* Each chunk and the ones beside it in its band. */
-static void spread_sideways(const rows *cells, uint64_t *band)
+static void spread_sideways(map_band band)
 {
     uint64_t from_left = 0;
-    for (size_t i = 0; i < cells->words; i++) {
-        uint64_t here = band[i];
-        uint64_t from_right = i + 1 < cells->words ? band[i + 1] << 63 : 0;
-        band[i] = here | here << 1 | here >> 1 | from_left | from_right;
+    for (int32_t i = 0; i < band.words; i++) {
+        uint64_t here = band.word[i];
+        uint64_t from_right = i + 1 < band.words ? band.word[i + 1] << 63 : 0;
+        band.word[i] = here | here << 1 | here >> 1 | from_left | from_right;
         from_left = here >> 63;
     }
 }
 
+static uint64_t word_at(map_band band, int32_t word)
+{
+    int32_t i = word - band.first_word;
+    return i >= 0 && i < band.words ? band.word[i] : 0;
+}
+
 static void gather_bands(rows *cells, int32_t band)
 {
-    uint64_t *active = map_band(cells, cells->active, band);
-    const uint64_t *valid = map_band(cells, cells->valid, band);
-    int32_t first = band > REACH_IN_BANDS ? band - REACH_IN_BANDS : 0;
-    int32_t end = band + REACH_IN_BANDS + 1;
+    map_band active = rows_map(cells, cells->active, band);
+    map_band valid = rows_map(cells, cells->valid, band);
+    int32_t first = band > ROWS_REACH ? band - ROWS_REACH : 0;
+    int32_t end = band + ROWS_REACH + 1;
     end = end < cells->bands ? end : cells->bands;
-    for (size_t i = 0; i < cells->words; i++) {
+    for (int32_t i = 0; i < active.words; i++) {
         uint64_t any = 0;
         for (int32_t near = first; near < end; near++)
-            any |= cells->flowing[(size_t)near * cells->words + i];
-        cells->stale = cells->stale || active[i] != (any & valid[i]);
-        active[i] = any & valid[i];
+            any |= word_at(rows_map(cells, cells->flowing, near), active.first_word + i);
+        cells->stale = cells->stale || active.word[i] != (any & valid.word[i]);
+        active.word[i] = any & valid.word[i];
     }
 }
 
@@ -98,7 +91,7 @@ void snow_rows_choose_active(const snow_grid *grid)
     if (group != SNOW_GROUP_TRIVIAL && !snow_group_reflects(group))
         return;
     for (int32_t band = 0; band < cells->bands; band++)
-        spread_sideways(cells, map_band(cells, cells->flowing, band));
+        spread_sideways(rows_map(cells, cells->flowing, band));
     for (int32_t band = 0; band < cells->bands; band++)
         gather_bands(cells, band);
 }
@@ -108,13 +101,14 @@ static uint8_t mask_of(const snow_run_of_cells *run, int32_t q)
 {
     int32_t first = run->first > q ? run->first - q : 0;
     int32_t end = run->end < q + REITER_CHUNK ? run->end - q : REITER_CHUNK;
-    return first < end ? (uint8_t)((0xFFu << first) & (0xFFu >> (REITER_CHUNK - end))) : 0;
+    unsigned mask = first < end ? (0xFFu << first) & (0xFFu >> (REITER_CHUNK - end)) : 0;
+    return (uint8_t)mask;
 }
 
-static reiter_segment chunk_at(const rows *cells, int32_t band, int64_t chunk)
+static reiter_segment chunk_at(const rows *cells, int32_t band, int32_t chunk)
 {
     const stored_band *stored = &cells->band[band + 1];
-    int32_t q = (int32_t)(cells->first_column + chunk * REITER_CHUNK);
+    int32_t q = chunk * REITER_CHUNK;
     int32_t row = band * REITER_BAND;
     int32_t r = cells->part.top + row;
     reiter_segment segment = {
@@ -123,7 +117,7 @@ static reiter_segment chunk_at(const rows *cells, int32_t band, int64_t chunk)
         .below = (uint32_t)rows_number(cells, q, r + REITER_BAND),
         .stride = stored->stride,
         .chunks = 1,
-        .bit = (uint32_t)((size_t)band * cells->words * 64 + (size_t)chunk),
+        .bit = (uint32_t)(stored->map * 64) + (uint32_t)(chunk - 64 * stored->first_word),
     };
     for (int32_t own = 0; own < REITER_BAND && row + own < cells->part.rows; own++)
         segment.mask[own] = mask_of(&cells->part.run[row + own], q);
@@ -141,19 +135,19 @@ static bool is_full(const reiter_segment *segment)
 /* Full chunks side by side make one segment. */
 static size_t list_band(const rows *cells, int32_t band, reiter_segment *room)
 {
-    const uint64_t *active = map_band(cells, cells->active, band);
+    map_band active = rows_map(cells, cells->active, band);
     size_t listed = 0;
-    int64_t joins = -1; /* the chunk that would continue the last segment */
-    for (size_t word = 0; word < cells->words; word++) {
-        for (uint64_t bits = active[word]; bits != 0; bits &= bits - 1) {
-            int64_t chunk = (int64_t)word * 64 + __builtin_ctzll(bits);
+    int32_t joins = INT32_MIN; /* the chunk that would continue the last segment */
+    for (int32_t i = 0; i < active.words; i++) {
+        for (uint64_t bits = active.word[i]; bits != 0; bits &= bits - 1) {
+            int32_t chunk = (active.first_word + i) * 64 + __builtin_ctzll(bits);
             reiter_segment segment = chunk_at(cells, band, chunk);
             bool full = is_full(&segment);
             if (full && chunk == joins)
                 room[listed - 1].chunks++;
             else
                 room[listed++] = segment;
-            joins = full ? chunk + 1 : -1;
+            joins = full ? chunk + 1 : INT32_MIN;
         }
     }
     return listed;

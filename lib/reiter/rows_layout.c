@@ -27,13 +27,12 @@ void snow_rows_columns(const rows *cells, int32_t band, int32_t *first, int32_t 
     }
 }
 
-/* Every chunk is computed whole, from all neighbours of its cells, also those
-   in the bands beside it. */
-static void stored_columns(const rows *cells, int32_t band, int32_t *first, int32_t *end)
+/* The same for a band and those around it, and one chunk more on each side. */
+static void columns_around(const rows *cells, int32_t band, int32_t reach, int32_t *first, int32_t *end)
 {
     *first = INT32_MAX;
     *end = INT32_MIN;
-    for (int32_t from = band - 1; from <= band + 1; from++) {
+    for (int32_t from = band - reach; from <= band + reach; from++) {
         int32_t left;
         int32_t right;
         snow_rows_columns(cells, from, &left, &right);
@@ -42,6 +41,25 @@ static void stored_columns(const rows *cells, int32_t band, int32_t *first, int3
         *first = left - REITER_CHUNK < *first ? left - REITER_CHUNK : *first;
         *end = right + REITER_CHUNK > *end ? right + REITER_CHUNK : *end;
     }
+}
+
+static int32_t word_floor(int32_t q)
+{
+    enum { COLUMNS = 64 * REITER_CHUNK };
+    return q >= 0 ? q / COLUMNS : -((-q + COLUMNS - 1) / COLUMNS);
+}
+
+/* A map has room for what comes from the bands within reach. */
+static void place_in_maps(rows *cells, int32_t band)
+{
+    stored_band *stored = &cells->band[band + 1];
+    int32_t first;
+    int32_t end;
+    columns_around(cells, band, ROWS_REACH, &first, &end);
+    stored->first_word = word_floor(first);
+    stored->words = word_floor(end - 1) + 1 - stored->first_word;
+    stored->map = cells->map_words;
+    cells->map_words += (size_t)stored->words;
 }
 
 static snow_status place_bands(rows *cells, snow_heap *heap)
@@ -56,9 +74,11 @@ static snow_status place_bands(rows *cells, snow_heap *heap)
     for (size_t i = 0; i < stored; i++) {
         int32_t first;
         int32_t end;
-        stored_columns(cells, (int32_t)i - 1, &first, &end);
+        /* Every chunk is computed whole, from all neighbours of its cells, also
+           those in the bands beside it. */
+        columns_around(cells, (int32_t)i - 1, 1, &first, &end);
         uint32_t stride = (uint32_t)(end - first);
-        cells->band[i] = (stored_band){first, stride, count};
+        cells->band[i] = (stored_band){.first = first, .stride = stride, .base = count};
         for (size_t row = 0; row < REITER_BAND; row++)
             cells->offset[i * REITER_BAND + row] = (int64_t)(count + row * stride) - first;
         count += (size_t)REITER_BAND * stride;
@@ -194,31 +214,29 @@ static snow_status place_blocks(const snow_grid *grid, snow_heap *heap)
     return SNOW_OK;
 }
 
+static void mark_valid(rows *cells, int32_t band)
+{
+    int32_t q;
+    int32_t end;
+    for (snow_rows_columns(cells, band, &q, &end); q < end; q += REITER_CHUNK)
+        rows_set_bit(rows_map(cells, cells->valid, band), q / REITER_CHUNK);
+}
+
 static snow_status place_maps(rows *cells, snow_heap *heap)
 {
-    const snow_domain *part = &cells->part;
-    cells->first_column = rows_chunk_floor(part->bounds.q);
-    int32_t columns = chunk_ceiling(part->bounds.q + part->bounds.width) - cells->first_column;
-    cells->words = (size_t)(columns / REITER_CHUNK + 63) / 64;
-    size_t size = cells->words * (size_t)cells->bands;
     size_t segments = 0;
-    for (int32_t band = 0; band < cells->bands; band++)
+    for (int32_t band = 0; band < cells->bands; band++) {
+        place_in_maps(cells, band);
         segments += most_segments(cells, band);
-    bool complete = (cells->valid = snow_heap_get(heap, size, sizeof(uint64_t))) != NULL &&
-                    (cells->active = snow_heap_get(heap, size, sizeof(uint64_t))) != NULL &&
-                    (cells->flowing = snow_heap_get(heap, size, sizeof(uint64_t))) != NULL &&
+    }
+    bool complete = (cells->valid = snow_heap_get(heap, cells->map_words, sizeof(uint64_t))) != NULL &&
+                    (cells->active = snow_heap_get(heap, cells->map_words, sizeof(uint64_t))) != NULL &&
+                    (cells->flowing = snow_heap_get(heap, cells->map_words, sizeof(uint64_t))) != NULL &&
                     (cells->segment = snow_heap_get_raw(heap, segments, sizeof *cells->segment)) != NULL;
     if (!complete)
         return heap->refusal;
-    for (int32_t band = 0; band < cells->bands; band++) {
-        uint64_t *valid = cells->valid + (size_t)band * cells->words;
-        int32_t q;
-        int32_t end;
-        for (snow_rows_columns(cells, band, &q, &end); q < end; q += REITER_CHUNK) {
-            size_t chunk = (size_t)(q - cells->first_column) / REITER_CHUNK;
-            valid[chunk / 64] |= UINT64_C(1) << chunk % 64;
-        }
-    }
+    for (int32_t band = 0; band < cells->bands; band++)
+        mark_valid(cells, band);
     return SNOW_OK;
 }
 
