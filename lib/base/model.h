@@ -9,6 +9,7 @@
 
 #include <snowgrowth/grid.h>
 
+#include <math.h>
 #include <stdbool.h>
 #include <stdint.h>
 
@@ -26,6 +27,12 @@ typedef struct snow_census {
 static inline bool snow_census_looks(int64_t steps)
 {
     return steps == 1 || steps % 64 == 0;
+}
+
+/* Distance of the farthest frozen cell from the origin; 0: nothing frozen. */
+static inline double snow_census_tip(const snow_census *census)
+{
+    return census->tip_square > 0 ? sqrt((double)census->tip_square) : 0;
 }
 
 void snow_census_start(snow_census *census);

@@ -4,7 +4,15 @@
 
 #include <snowgrowth/status.h>
 
+#include <stdbool.h>
 #include <stddef.h>
+#include <stdint.h>
+
+/* Members that stand for yes and no hold nothing else. */
+static inline bool snow_is_flag(int32_t value)
+{
+    return value == 0 || value == 1;
+}
 
 /* A caller's struct is refused when it is smaller than in the first release
    (or was never initialised), or sets a member that lies beyond ours. */

@@ -1,6 +1,5 @@
+#include "base/floating.h"
 #include "base/model.h"
-
-#include <math.h>
 
 snow_status snow_model_of(const snow_grid *grid, snow_model *model)
 {
@@ -30,7 +29,10 @@ snow_status snow_tip_radius(const snow_grid *grid, double *radius)
 {
     if (grid == NULL || radius == NULL)
         return SNOW_ERROR_NULL;
-    *radius = grid->census.tip_square > 0 ? sqrt((double)grid->census.tip_square) : 0;
+    snow_floating floating;
+    snow_floating_enter(&floating);
+    *radius = snow_census_tip(&grid->census);
+    snow_floating_leave(&floating);
     return SNOW_OK;
 }
 

@@ -65,11 +65,6 @@ static double now(void)
     return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
 }
 
-static double tip_radius(const snow_grid *grid)
-{
-    return grid->census.tip_square > 0 ? sqrt((double)grid->census.tip_square) : 0;
-}
-
 static SNOW_APART snow_summary summarise(const snow_grid *grid, snow_stop_reason reason, double started)
 {
     return (snow_summary){
@@ -77,7 +72,7 @@ static SNOW_APART snow_summary summarise(const snow_grid *grid, snow_stop_reason
         .reason = reason,
         .steps = grid->census.steps,
         .frozen = grid->census.frozen,
-        .tip_radius = tip_radius(grid),
+        .tip_radius = snow_census_tip(&grid->census),
         .seconds = now() - started,
     };
 }
@@ -88,7 +83,7 @@ static snow_stop_reason crystal_stops(const snow_grid *grid, const snow_stop *st
     const snow_census *census = &grid->census;
     if (stop->rim && census->rim)
         return SNOW_STOP_RIM;
-    if (stop->tip_radius > 0 && tip_radius(grid) >= stop->tip_radius)
+    if (stop->tip_radius > 0 && snow_census_tip(&grid->census) >= stop->tip_radius)
         return SNOW_STOP_RADIUS;
     if (stop->frozen > 0 && census->frozen >= stop->frozen)
         return SNOW_STOP_FROZEN;
@@ -132,16 +127,11 @@ static snow_status run(snow_grid *grid, const snow_stop *stop, double started, c
     return SNOW_OK;
 }
 
-static bool is_flag(int32_t value)
-{
-    return value == 0 || value == 1;
-}
-
 static snow_status check_stop(const snow_stop *stop)
 {
     if (!isfinite(stop->tip_radius) || !isfinite(stop->seconds))
         return SNOW_ERROR_NOT_FINITE;
-    if (stop->max_steps < -1 || !is_flag(stop->rim) || !is_flag(stop->still) || stop->tip_radius < 0 ||
+    if (stop->max_steps < -1 || !snow_is_flag(stop->rim) || !snow_is_flag(stop->still) || stop->tip_radius < 0 ||
         stop->seconds < 0 || stop->progress_steps < 1)
         return SNOW_ERROR_RANGE;
     return SNOW_OK;

@@ -13,7 +13,7 @@ static const reiter_engine *choose_engine(snow_reiter_engine engine)
     return &snow_reiter_rows;
 }
 
-static uint64_t cells_of(const snow_reiter_params *params)
+uint64_t snow_reiter_cells(const snow_reiter_params *params)
 {
     switch (params->domain) {
     case SNOW_REITER_DISC: return snow_domain_disc_cells(params->radius);
@@ -26,7 +26,7 @@ static uint64_t cells_of(const snow_reiter_params *params)
 /* Cells are numbered in 32 bits; the hull has at most nine cells for one. */
 static bool is_too_large(const snow_reiter_params *params)
 {
-    uint64_t cells = cells_of(params);
+    uint64_t cells = snow_reiter_cells(params);
     return cells > UINT32_MAX - UINT32_C(0x2000000) || cells > SIZE_MAX / 128;
 }
 

@@ -155,7 +155,10 @@ static inline snow_walk reiter_walk_fixed(const snow_grid *grid)
     return walk;
 }
 
-/* create.c: a grid with its domain and hull. */
+/* create.c */
+/* How many interior cells a scene has, without building it. */
+uint64_t snow_reiter_cells(const snow_reiter_params *params);
+/* A grid with its domain and hull. */
 snow_status snow_reiter_build(const snow_reiter_params *params, const snow_options *options, snow_grid **grid);
 /* Gives it its engine and arrays, every cell empty; folds by the group where the engine can. */
 snow_status snow_reiter_equip(snow_grid *grid, snow_group group);

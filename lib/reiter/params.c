@@ -51,11 +51,6 @@ static snow_status check_enumerations(const snow_reiter_params *params)
     return known ? SNOW_OK : SNOW_ERROR_ENUM;
 }
 
-static bool is_flag(int32_t value)
-{
-    return value == 0 || value == 1;
-}
-
 static bool is_side(int32_t side)
 {
     return side >= 1 && side <= GREATEST_SIDE;
@@ -88,7 +83,7 @@ static snow_status check_start(const snow_reiter_params *params)
 
 snow_status snow_reiter_params_check(const snow_reiter_params *params)
 {
-    if (!is_flag(params->record_freeze_steps) || !is_flag(params->allow_unstable) || !is_flag(params->noise_symmetric))
+    if (!snow_is_flag(params->record_freeze_steps) || !snow_is_flag(params->allow_unstable) || !snow_is_flag(params->noise_symmetric))
         return SNOW_ERROR_RANGE;
     snow_status status = check_enumerations(params);
     if (status == SNOW_OK)

@@ -82,17 +82,6 @@ typedef struct saved_scene {
     int64_t steps;
 } saved_scene;
 
-/* Sizes are compared with the data before anything is allocated for them. */
-static uint64_t cells_of(const snow_reiter_params *params)
-{
-    switch (params->domain) {
-    case SNOW_REITER_DISC: return snow_domain_disc_cells(params->radius);
-    case SNOW_REITER_HEXAGON: return snow_domain_hexagon_cells(params->radius);
-    case SNOW_REITER_RECTANGLE: break;
-    }
-    return (uint64_t)params->width * (uint64_t)params->height;
-}
-
 static snow_status load_scene(snow_source *source, saved_scene *scene)
 {
     snow_reiter_params *params = &scene->params;
@@ -125,7 +114,8 @@ static snow_status load_scene(snow_source *source, saved_scene *scene)
                  snow_reiter_params_check(params) == SNOW_OK;
     if (!sound)
         return SNOW_ERROR_DAMAGED;
-    uint64_t least = cells_of(params) / (uint64_t)snow_group_order(scene->group) * LEAST_CELL_SIZE;
+    /* Sizes are compared with the data before anything is allocated for them. */
+    uint64_t least = snow_reiter_cells(params) / (uint64_t)snow_group_order(scene->group) * LEAST_CELL_SIZE;
     return least <= snow_source_left(source) ? SNOW_OK : SNOW_ERROR_TRUNCATED;
 }
 
