@@ -40,7 +40,7 @@ static size_t numbers(const snow_grid *grid)
 
 static size_t number(const snow_grid *grid, int32_t q, int32_t r)
 {
-    snow_cell cell = snow_group_representative(reiter_of(grid)->group, q, r);
+    snow_cell cell = rows_representative(grid, q, r);
     return rows_number(rows_of(grid), cell.q, cell.r);
 }
 

@@ -108,6 +108,14 @@ enum { ROWS_LOOK_STEPS = 8 };
 /* How far something may come in that time, in bands; in chunks it is one. */
 enum { ROWS_REACH = (ROWS_LOOK_STEPS + REITER_BAND - 1) / REITER_BAND };
 
+/* The image of a cell that is kept; most that are asked for are it. */
+static inline snow_cell rows_representative(const snow_grid *grid, int32_t q, int32_t r)
+{
+    if (snow_domain_has(&rows_of(grid)->part, q, r))
+        return (snow_cell){q, r};
+    return snow_group_representative(reiter_of(grid)->group, q, r);
+}
+
 static inline int32_t rows_chunk_floor(int32_t q)
 {
     int32_t rest = q % REITER_CHUNK;

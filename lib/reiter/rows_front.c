@@ -129,7 +129,7 @@ static void join_front(snow_grid *grid, double *next, int32_t q, int32_t r, bool
     rows *cells = rows_of(grid);
     if (!snow_domain_has(&grid->domain, q, r))
         return;
-    snow_cell at = snow_group_representative(reiter_of(grid)->group, q, r);
+    snow_cell at = rows_representative(grid, q, r);
     size_t i = rows_number(cells, at.q, at.r);
     if (cells->state[i] != CELL_VAPOUR)
         return;
