@@ -42,11 +42,8 @@ void snow_reiter_freeze(snow_grid *grid, int32_t q, int32_t r)
 {
     reiter *model = reiter_of(grid);
     count_images(grid, q, r);
-    if (model->freeze_step != NULL) {
-        int64_t step = grid->census.steps;
-        model->freeze_step[model->engine->number(grid, q, r)] =
-            step < REITER_NEVER ? (uint32_t)step : REITER_NEVER - 1;
-    }
+    if (model->freeze_step != NULL)
+        model->freeze_step[model->engine->number(grid, q, r)] = reiter_freeze_stamp(grid->census.steps);
 }
 
 void snow_reiter_recount(snow_grid *grid)

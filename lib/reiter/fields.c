@@ -105,11 +105,9 @@ static snow_status put_value(snow_grid *grid, int32_t q, int32_t r, double value
     bool was_frozen = model->engine->get(grid, q, r).frozen;
     reiter_cell cell = {.value = value, .frozen = value >= reiter_threshold()};
     model->engine->put(grid, q, r, &cell);
-    if (model->freeze_step != NULL && was_frozen != cell.frozen) {
-        int64_t step = grid->census.steps;
+    if (model->freeze_step != NULL && was_frozen != cell.frozen)
         model->freeze_step[model->engine->number(grid, q, r)] =
-            !cell.frozen ? REITER_NEVER : step < REITER_NEVER ? (uint32_t)step : REITER_NEVER - 1;
-    }
+            cell.frozen ? reiter_freeze_stamp(grid->census.steps) : REITER_NEVER;
     return SNOW_OK;
 }
 

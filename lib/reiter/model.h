@@ -61,6 +61,12 @@ typedef struct reiter {
 
 #define REITER_NEVER UINT32_MAX
 
+/* A step count as freeze_step holds it. */
+static inline uint32_t reiter_freeze_stamp(int64_t step)
+{
+    return step < REITER_NEVER ? (uint32_t)step : REITER_NEVER - 1;
+}
+
 /* Additions are merged into the values whenever the step count is a multiple
    of this, so that 32 bits are enough for their number. */
 #define REITER_MERGE_STEPS (INT64_C(1) << 31)

@@ -1,7 +1,5 @@
 #include "reiter/rows.h"
 
-#include "base/hexagon.h"
-
 #include <string.h>
 
 static const reiter_kernel *choose_kernel(snow_isa isa)
