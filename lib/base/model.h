@@ -47,8 +47,10 @@ typedef struct snow_model_operations {
     snow_model model;
     const char *name;
 
-    /* Takes one step. On failure the grid stands before the step. */
-    snow_status (*step)(snow_grid *grid);
+    /* Takes at least one step and at most `most`, but none after one in which a
+       condition of `stop` (NULL: none) on the crystal comes true. On failure the
+       grid stands before the step that failed. */
+    snow_status (*advance)(snow_grid *grid, int64_t most, const snow_stop *stop);
     /* OK, UNSUPPORTED or NOT_RECORDED. */
     snow_status (*can_read)(const snow_grid *grid, snow_field field);
     /* count values of row r from column q on; any cells. */

@@ -34,11 +34,18 @@ void snow_destroy(snow_grid *grid)
         snow_grid_end(grid);
 }
 
-static snow_status take_step(snow_grid *grid)
+static int64_t lesser(int64_t a, int64_t b)
 {
-    if (grid->census.steps >= greatest_step)
+    return a < b ? a : b;
+}
+
+/* One step or more; `until` is a step count. */
+static snow_status advance(snow_grid *grid, int64_t until, const snow_stop *stop)
+{
+    int64_t steps = grid->census.steps;
+    if (steps >= greatest_step)
         return SNOW_ERROR_STEP_LIMIT;
-    return grid->operations->step(grid);
+    return grid->operations->advance(grid, lesser(until, greatest_step) - steps, stop);
 }
 
 snow_status snow_step(snow_grid *grid, int64_t steps)
@@ -52,8 +59,9 @@ snow_status snow_step(snow_grid *grid, int64_t steps)
     snow_floating floating;
     snow_floating_enter(&floating);
     snow_status status = SNOW_OK;
-    for (; steps > 0 && status == SNOW_OK; steps--)
-        status = take_step(grid);
+    int64_t until = steps < INT64_MAX - grid->census.steps ? grid->census.steps + steps : INT64_MAX;
+    while (grid->census.steps < until && status == SNOW_OK)
+        status = advance(grid, until, NULL);
     snow_floating_leave(&floating);
     return status;
 }
@@ -94,6 +102,18 @@ static snow_stop_reason crystal_stops(const snow_grid *grid, const snow_stop *st
     return SNOW_STOP_NONE;
 }
 
+/* The next step count after which something other than the crystal may end the run. */
+static int64_t next_look(const snow_grid *grid, const snow_stop *stop)
+{
+    int64_t until = stop->max_steps >= 0 ? stop->max_steps : greatest_step;
+    if (stop->progress != NULL) {
+        int64_t interval = stop->progress_steps;
+        int64_t to_next = interval - grid->census.steps % interval;
+        until = lesser(until, grid->census.steps + lesser(to_next, greatest_step));
+    }
+    return until;
+}
+
 /* The callback runs in the caller's own floating-point state. */
 static bool is_cancelled(snow_grid *grid, const snow_stop *stop, double started, const snow_floating *floating)
 {
@@ -113,7 +133,7 @@ static snow_status run(snow_grid *grid, const snow_stop *stop, double started, c
                        snow_stop_reason *reason)
 {
     for (*reason = crystal_stops(grid, stop); *reason == SNOW_STOP_NONE;) {
-        snow_status status = take_step(grid);
+        snow_status status = advance(grid, next_look(grid, stop), stop);
         if (status != SNOW_OK) {
             *reason = SNOW_STOP_UNSTABLE;
             return status;

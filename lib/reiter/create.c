@@ -115,8 +115,10 @@ static void destroy(snow_grid *grid)
     snow_heap_put(&grid->heap, model);
 }
 
-static snow_status step(snow_grid *grid)
+static snow_status advance(snow_grid *grid, int64_t most, const snow_stop *stop)
 {
+    (void)most;
+    (void)stop;
     snow_census *census = &grid->census;
     snow_status status = reiter_of(grid)->engine->step(grid);
     if (status == SNOW_OK && census->steps % REITER_MERGE_STEPS == 0)
@@ -127,7 +129,7 @@ static snow_status step(snow_grid *grid)
 const snow_model_operations snow_reiter_operations = {
     .model = SNOW_MODEL_REITER,
     .name = "reiter",
-    .step = step,
+    .advance = advance,
     .can_read = snow_reiter_can_read,
     .read = snow_reiter_read,
     .set = snow_reiter_set,
