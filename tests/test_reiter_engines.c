@@ -20,9 +20,11 @@ static snow_options random_options(uint64_t *random, snow_isa isa)
 }
 
 /* Steps both in the same strides and compares every bit after each. */
-static void assert_equal_growth(const snow_reiter_params *scene, const snow_options *options, int64_t rounds)
+static void assert_equal_growth_in(snow_reiter_precision precision, const snow_reiter_params *scene,
+                                   const snow_options *options, int64_t rounds)
 {
     snow_reiter_params params = *scene;
+    params.precision = precision;
     params.engine = SNOW_REITER_ENGINE_REFERENCE;
     snow_grid *reference = make_grid(&params, NULL);
     params.engine = SNOW_REITER_ENGINE_ROWS;
@@ -36,6 +38,12 @@ static void assert_equal_growth(const snow_reiter_params *scene, const snow_opti
     assert_same_grids(reference, rows);
     snow_destroy(reference);
     snow_destroy(rows);
+}
+
+static void assert_equal_growth(const snow_reiter_params *scene, const snow_options *options, int64_t rounds)
+{
+    assert_equal_growth_in(SNOW_REITER_PRECISION_DOUBLE, scene, options, rounds);
+    assert_equal_growth_in(SNOW_REITER_PRECISION_SINGLE, scene, options, rounds);
 }
 
 static void assert_equal_growth_everywhere(const snow_reiter_params *scene)

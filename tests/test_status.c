@@ -49,6 +49,8 @@ static const struct {
     {SNOW_ERROR_REITER_RESCALE, 1009},
     {SNOW_ERROR_REITER_VAPOUR, 1010},
     {SNOW_ERROR_REITER_PRESET, 1011},
+    {SNOW_ERROR_REITER_PRECISION, 1012},
+    {SNOW_ERROR_REITER_TOLERANCE, 1013},
 };
 
 static void status_numbers_never_change(void **state)
@@ -78,7 +80,7 @@ static void each_status_has_its_own_text(void **state)
 static void unknown_statuses_have_a_text(void **state)
 {
     (void)state;
-    static const int numbers[] = {-1, 1, 112, 205, 306, 402, 999, 1012, INT_MAX, INT_MIN};
+    static const int numbers[] = {-1, 1, 112, 205, 306, 402, 999, 1014, INT_MAX, INT_MIN};
     for (size_t i = 0; i < COUNT_OF(numbers); i++)
         assert_string_equal(snow_strerror((snow_status)99), snow_strerror((snow_status)numbers[i]));
 }

@@ -107,7 +107,11 @@ typedef enum snow_status {
     /** A value of vapour that a caller set is not in 0 <= vapour < 1. */
     SNOW_ERROR_REITER_VAPOUR = 1010,
     /** No preset has this name. */
-    SNOW_ERROR_REITER_PRESET = 1011
+    SNOW_ERROR_REITER_PRESET = 1011,
+    /** The engine does not keep vapour in this precision. */
+    SNOW_ERROR_REITER_PRECISION = 1012,
+    /** The tolerance is not in 0 <= tolerance <= 1, or the engine has none. */
+    SNOW_ERROR_REITER_TOLERANCE = 1013
 } snow_status;
 
 /**

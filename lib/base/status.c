@@ -43,6 +43,9 @@ const char *snow_strerror(snow_status status)
     case SNOW_ERROR_REITER_RESCALE: return "a background of 0 cannot be rescaled";
     case SNOW_ERROR_REITER_VAPOUR: return "vapour must be at least 0 and less than 1";
     case SNOW_ERROR_REITER_PRESET: return "there is no preset of this name";
+    case SNOW_ERROR_REITER_PRECISION: return "the quad engine has no single precision";
+    case SNOW_ERROR_REITER_TOLERANCE:
+        return "the tolerance must be between 0 and 1, and 0 where the engine computes every cell";
     }
     return "unknown status";
 }

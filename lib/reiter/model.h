@@ -96,11 +96,26 @@ static inline bool reiter_overshoots(const reiter *model)
     return model->params.diffusion > 2;
 }
 
-/* Every sum of a step is less than 2^53 of these: up to 6 times the bound where
-   vapour has one sign, 12 times where it has both. */
+static inline bool reiter_is_single(const reiter *model)
+{
+    return model->params.precision == SNOW_REITER_PRECISION_SINGLE;
+}
+
+/* Every sum of a step is less than 2^53 of these, in single precision 2^31: up
+   to 6 times the bound where vapour has one sign, 12 times where it has both. */
 static inline double reiter_quantum(const reiter *model)
 {
-    return model->bound * (reiter_overshoots(model) ? 0x1p-49 : 0x1p-50);
+    double finest = reiter_is_single(model) ? 0x1p-28 : 0x1p-50;
+    return model->bound * (reiter_overshoots(model) ? 2 * finest : finest);
+}
+
+/* α/12 in single precision. Two roundings follow, so that α = 2 needs some room
+   below 1/6 for the vapour to stay between its neighbours (doc/reiter.md). */
+static inline float reiter_single_weight(const reiter *model)
+{
+    const float greatest = 0x1.55555p-3f;
+    float weight = (float)(model->params.diffusion / 12);
+    return weight > greatest && !reiter_overshoots(model) ? greatest : weight;
 }
 
 /* Adding and subtracting this rounds a smaller number to the quantum. */
@@ -117,8 +132,9 @@ static inline double reiter_round(double value, double rounder)
 /* A vapour as the grid holds it: a multiple of the quantum that is not ice. */
 static inline double reiter_settled(const reiter *model, double value)
 {
+    double quantum = reiter_quantum(model);
     double rounded = reiter_round(value, reiter_rounder(model));
-    return rounded < reiter_threshold() ? rounded : reiter_threshold() - reiter_quantum(model);
+    return rounded < reiter_threshold() ? rounded : (ceil(reiter_threshold() / quantum) - 1) * quantum;
 }
 
 /* β as the vapour holds it, so that no edge shows between the fixed cells and what is beyond. */

@@ -7,8 +7,7 @@
      real_make(high, low)      the number high + low
      real_high(x), real_low(x)
      real_add(x, y), real_subtract(x, y), real_multiply(x, y)
-     real_divide(x, y)         of two doubles
-     real_flow(model, x)       a flow of vapour as the model keeps it
+     real_flow(model, x)       (α/12)·x as the model keeps it
      real_vapour(model, x)     a vapour as the model keeps it
      REFERENCE_ENGINE          the name of the engine's table
 
@@ -104,8 +103,7 @@ static real flow_into(const snow_grid *grid, int32_t q, int32_t r)
     for (int which = 0; which < 6; which++)
         sum = real_add(sum, vapour_of(neighbour_of(grid, q, r, which)));
     real centre = real_multiply(real_make(6, 0), vapour_of(cell_at(grid, q, r)));
-    real weight = real_divide(model->params.diffusion, 12);
-    return real_flow(model, real_multiply(weight, real_subtract(sum, centre)));
+    return real_flow(model, real_subtract(sum, centre));
 }
 
 /* u: value and additions. */

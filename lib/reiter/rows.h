@@ -70,13 +70,15 @@ typedef struct rows {
     int32_t bands;     /* of the part; the last may reach beyond it */
     stored_band *band; /* band n of the part is band[n + 1] */
     int64_t *offset;   /* cell (q, r) is number offset[r − top + REITER_BAND] + q */
-    double *vapour[2]; /* 0 where receptive */
-    int now;           /* which of the two holds the present step */
-    double fixed;      /* of the fixed cells, where the part is not the whole */
+    void *vapour[2]; /* 0 where receptive; see rows_vapour.h */
+    int now;         /* which of the two holds the present step */
+    bool single;     /* vapour is in 32-bit multiples of the quantum, else in doubles */
+    bool loose;      /* cells have been put, and are not settled yet; none is listed */
+    double quantum;
+    double fixed; /* of the fixed cells, where the part is not the whole */
     unsigned char *state;
     receptive_cell *listed;
-    uint32_t *place; /* of receptive cells: where they are listed */
-    bool lists;      /* else `place` stands for their `since`, and `vapour` for `collected` */
+    uint32_t *place; /* of receptive cells: where they are listed; while cells are loose, their `since` */
     ghost_cell *ghost;
     size_t ghosts;
     row_block *block;
@@ -96,6 +98,11 @@ static inline rows *rows_of(const snow_grid *grid)
     return reiter_of(grid)->cells;
 }
 
+static inline size_t rows_vapour_size(const rows *cells)
+{
+    return cells->single ? sizeof(int32_t) : sizeof(double);
+}
+
 /* Of a cell of the part, or next to it. */
 static inline size_t rows_number(const rows *cells, int32_t q, int32_t r)
 {
@@ -104,6 +111,9 @@ static inline size_t rows_number(const rows *cells, int32_t q, int32_t r)
 
 /* Steps between two looks at which chunks change; not more than a chunk has columns. */
 enum { ROWS_LOOK_STEPS = 8 };
+
+/* Steps between two looks at everything, where there is a tolerance. */
+enum { ROWS_FULL_LOOK_STEPS = 64 };
 
 /* How far something may come in that time, in bands; in chunks it is one. */
 enum { ROWS_REACH = (ROWS_LOOK_STEPS + REITER_BAND - 1) / REITER_BAND };
@@ -149,7 +159,7 @@ void snow_rows_columns(const rows *cells, int32_t band, int32_t *first, int32_t 
 /* Whether a neighbour of a cell of the part is fixed. */
 bool snow_rows_touches_fixed(const snow_grid *grid, int32_t q, int32_t r);
 /* Ghosts get the values of the cells that they are images of. */
-void snow_rows_copy_ghosts(const rows *cells, double *vapour);
+void snow_rows_copy_ghosts(const rows *cells, void *vapour);
 
 /* rows_active.c */
 /* Everything is computed until the next look. */
@@ -164,16 +174,16 @@ void snow_rows_list_segments(rows *cells);
 /* rows_front.c */
 /* Gives the listed cells of a block what has diffused into them, and lists
    those that freeze. */
-void snow_rows_collect(const snow_grid *grid, row_block *block, double *next);
+void snow_rows_collect(const snow_grid *grid, row_block *block, void *next);
 /* Lists the cells of a block that freeze although no ice is next to them. */
-void snow_rows_overshoot(const snow_grid *grid, row_block *block, const double *next);
+void snow_rows_overshoot(const snow_grid *grid, row_block *block, const void *next);
 /* Turns the listed cells into ice and their neighbours into the front. */
-bool snow_rows_freeze(snow_grid *grid, double *next, bool looking);
+bool snow_rows_freeze(snow_grid *grid, void *next, bool looking);
 /* Whether a cell of the front has an addition that will freeze it. */
 bool snow_rows_front_gains(const snow_grid *grid);
 /* Lists the receptive cells. */
 void snow_rows_list(snow_grid *grid);
-/* Takes the lists apart, so that cells can be put. */
+/* Takes the lists apart; cells are loose. */
 void snow_rows_unlist(rows *cells);
 
 #endif

@@ -4,7 +4,11 @@
    steps more. Every ROWS_LOOK_STEPS steps the kernel looks in which chunks
    anything flows; until the next look only those are computed and the ones
    within reach. Ice far inside, dry pockets between the branches and the
-   untouched field outside drop out, and come back by themselves. */
+   untouched field outside drop out, and come back by themselves.
+
+   With a tolerance, flows up to it count as none. Small flows can add up unseen
+   where nothing is computed, so that every ROWS_FULL_LOOK_STEPS steps the kernel
+   looks at everything. */
 #include "reiter/rows.h"
 
 #include <string.h>
@@ -66,7 +70,21 @@ static uint64_t word_at(map_band band, int32_t word)
     return i >= 0 && i < band.words ? band.word[i] : 0;
 }
 
-static void gather_bands(rows *cells, int32_t band)
+/* What stands still from now on must be the same in both steps. */
+static void still_chunks(const rows *cells, int32_t band, int32_t first_chunk, uint64_t bits)
+{
+    size_t size = rows_vapour_size(cells);
+    for (; bits != 0; bits &= bits - 1) {
+        int32_t q = (first_chunk + __builtin_ctzll(bits)) * REITER_CHUNK;
+        for (int32_t row = 0; row < REITER_BAND; row++) {
+            size_t at = rows_number(cells, q, cells->part.top + band * REITER_BAND + row) * size;
+            memcpy((char *)cells->vapour[cells->now] + at, (char *)cells->vapour[1 - cells->now] + at,
+                   REITER_CHUNK * size);
+        }
+    }
+}
+
+static void gather_bands(rows *cells, int32_t band, bool tolerant)
 {
     map_band active = rows_map(cells, cells->active, band);
     map_band valid = rows_map(cells, cells->valid, band);
@@ -77,8 +95,11 @@ static void gather_bands(rows *cells, int32_t band)
         uint64_t any = 0;
         for (int32_t near = first; near < end; near++)
             any |= word_at(rows_map(cells, cells->flowing, near), active.first_word + i);
-        cells->stale = cells->stale || active.word[i] != (any & valid.word[i]);
-        active.word[i] = any & valid.word[i];
+        uint64_t chosen = any & valid.word[i];
+        if (tolerant)
+            still_chunks(cells, band, (active.first_word + i) * 64, active.word[i] & ~chosen);
+        cells->stale = cells->stale || active.word[i] != chosen;
+        active.word[i] = chosen;
     }
 }
 
@@ -93,7 +114,7 @@ void snow_rows_choose_active(const snow_grid *grid)
     for (int32_t band = 0; band < cells->bands; band++)
         spread_sideways(rows_map(cells, cells->flowing, band));
     for (int32_t band = 0; band < cells->bands; band++)
-        gather_bands(cells, band);
+        gather_bands(cells, band, reiter_of(grid)->params.tolerance > 0);
 }
 
 /* The cells of a row that lie in the chunk from column q on. */

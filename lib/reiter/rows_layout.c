@@ -91,8 +91,8 @@ static snow_status place_bands(rows *cells, snow_heap *heap)
 static snow_status place_cells(rows *cells, snow_heap *heap)
 {
     size_t count = cells->count;
-    bool complete = (cells->vapour[0] = snow_heap_get(heap, count, sizeof(double))) != NULL &&
-                    (cells->vapour[1] = snow_heap_get(heap, count, sizeof(double))) != NULL &&
+    bool complete = (cells->vapour[0] = snow_heap_get(heap, count, rows_vapour_size(cells))) != NULL &&
+                    (cells->vapour[1] = snow_heap_get(heap, count, rows_vapour_size(cells))) != NULL &&
                     (cells->state = snow_heap_get_raw(heap, count, sizeof *cells->state)) != NULL &&
                     (cells->place = snow_heap_get_raw(heap, count, sizeof *cells->place)) != NULL &&
                     (cells->listed = snow_heap_get_raw(heap, count, sizeof *cells->listed)) != NULL;
@@ -112,31 +112,52 @@ static bool is_ghost(const snow_grid *grid, int64_t q, int64_t r)
     return snow_domain_has(&grid->domain, q, r) && !snow_domain_has(&rows_of(grid)->part, q, r);
 }
 
-/* Visits each ghost once or several times; counts them, and notes them where there is room. */
-static size_t find_ghosts(const snow_grid *grid, ghost_cell *room)
+typedef struct ghost_list {
+    ghost_cell *room; /* NULL: only counts */
+    size_t count;
+} ghost_list;
+
+static void note_ghosts(const snow_grid *grid, int32_t first, int32_t end, int32_t r, ghost_list *ghosts)
 {
     const rows *cells = rows_of(grid);
-    const snow_domain *part = &cells->part;
-    size_t ghosts = 0;
-    for (int32_t row = 0; row < part->rows; row++) {
-        const snow_run_of_cells *run = &part->run[row];
-        int32_t r = part->top + row;
-        for (int32_t q = run->first; q < run->end; q++) {
-            for (int which = 0; which < 6; which++) {
-                int32_t to_q = q + neighbour_q[which];
-                int32_t to_r = r + neighbour_r[which];
-                if (!is_ghost(grid, to_q, to_r))
-                    continue;
-                if (room != NULL) {
-                    snow_cell from = snow_group_representative(reiter_of(grid)->group, to_q, to_r);
-                    room[ghosts] = (ghost_cell){(uint32_t)rows_number(cells, to_q, to_r),
-                                                (uint32_t)rows_number(cells, from.q, from.r)};
-                }
-                ghosts++;
-            }
+    for (int32_t q = first; q < end; q++) {
+        if (!is_ghost(grid, q, r))
+            continue;
+        if (ghosts->room != NULL) {
+            snow_cell from = snow_group_representative(reiter_of(grid)->group, q, r);
+            ghosts->room[ghosts->count] =
+                (ghost_cell){(uint32_t)rows_number(cells, q, r), (uint32_t)rows_number(cells, from.q, from.r)};
         }
+        ghosts->count++;
     }
-    return ghosts;
+}
+
+/* Neighbours of the cells of a row, in it or in one beside it, that are not of the part. */
+static void note_ghosts_by_row(const snow_grid *grid, int32_t row, int32_t beside, ghost_list *ghosts)
+{
+    const snow_domain *part = &rows_of(grid)->part;
+    int32_t r = part->top + row + beside;
+    int32_t first = part->run[row].first - (beside >= 0 ? 1 : 0);
+    int32_t end = part->run[row].end + (beside <= 0 ? 1 : 0);
+    const snow_run_of_cells *own = snow_domain_row(part, r);
+    if (part->run[row].first >= part->run[row].end)
+        return;
+    if (own->first >= own->end) {
+        note_ghosts(grid, first, end, r, ghosts);
+        return;
+    }
+    note_ghosts(grid, first, end < own->first ? end : own->first, r, ghosts);
+    note_ghosts(grid, first > own->end ? first : own->end, end, r, ghosts);
+}
+
+/* Finds each ghost once or several times. */
+static size_t find_ghosts(const snow_grid *grid, ghost_cell *room)
+{
+    ghost_list ghosts = {room, 0};
+    for (int32_t row = 0; row < rows_of(grid)->part.rows; row++)
+        for (int32_t beside = -1; beside <= 1; beside++)
+            note_ghosts_by_row(grid, row, beside, &ghosts);
+    return ghosts.count;
 }
 
 static int compare_ghosts(const void *a, const void *b)
@@ -258,6 +279,7 @@ snow_status snow_rows_create(snow_grid *grid)
     if (model->cells == NULL)
         return heap->refusal;
     rows *cells = model->cells;
+    cells->single = reiter_is_single(model);
     snow_status status = place_part(grid);
     if (status == SNOW_OK)
         status = place_cells(cells, heap);
@@ -279,8 +301,8 @@ void snow_rows_destroy(snow_grid *grid)
     snow_heap_put(heap, cells->band);
     snow_heap_put(heap, cells->vapour[0]);
     snow_heap_put(heap, cells->vapour[1]);
-    snow_heap_put(heap, cells->place);
     snow_heap_put(heap, cells->state);
+    snow_heap_put(heap, cells->place);
     snow_heap_put(heap, cells->listed);
     snow_heap_put(heap, cells->ghost);
     snow_heap_put(heap, cells->block);
@@ -299,8 +321,12 @@ bool snow_rows_touches_fixed(const snow_grid *grid, int32_t q, int32_t r)
     return false;
 }
 
-void snow_rows_copy_ghosts(const rows *cells, double *vapour)
+void snow_rows_copy_ghosts(const rows *cells, void *vapour)
 {
-    for (size_t i = 0; i < cells->ghosts; i++)
-        vapour[cells->ghost[i].to] = vapour[cells->ghost[i].from];
+    double *doubles = vapour;
+    int32_t *singles = vapour;
+    for (size_t i = 0; i < cells->ghosts && !cells->single; i++)
+        doubles[cells->ghost[i].to] = doubles[cells->ghost[i].from];
+    for (size_t i = 0; i < cells->ghosts && cells->single; i++)
+        singles[cells->ghost[i].to] = singles[cells->ghost[i].from];
 }

@@ -30,6 +30,8 @@ static void save_scene(const snow_grid *grid, snow_sink *sink)
     snow_sink_u32(sink, (uint32_t)params->rim);
     snow_sink_u32(sink, (uint32_t)params->engine);
     snow_sink_u32(sink, (uint32_t)params->symmetry);
+    snow_sink_u32(sink, (uint32_t)params->precision);
+    snow_sink_double(sink, params->tolerance);
     snow_sink_u32(sink, model->group);
     snow_sink_u8(sink, params->record_freeze_steps != 0);
     snow_sink_u8(sink, params->allow_unstable != 0);
@@ -96,6 +98,8 @@ static snow_status load_scene(snow_source *source, saved_scene *scene)
     params->rim = (snow_reiter_rim)snow_source_u32(source);
     params->engine = (snow_reiter_engine)snow_source_u32(source);
     params->symmetry = (snow_reiter_symmetry)snow_source_u32(source);
+    params->precision = (snow_reiter_precision)snow_source_u32(source);
+    params->tolerance = snow_source_double(source);
     scene->group = snow_source_u32(source);
     params->record_freeze_steps = snow_source_u8(source);
     params->allow_unstable = snow_source_u8(source);
