@@ -200,6 +200,82 @@ static void random_scenes(void **state)
     }
 }
 
+/* Takes several steps in one pass where it can, and, with two threads, single steps. */
+static void assert_passes_equal_steps(const snow_reiter_params *scene, snow_reiter_precision precision)
+{
+    snow_reiter_params params = *scene;
+    params.precision = precision;
+    snow_options options = default_options();
+    snow_grid *passes = make_grid(&params, &options);
+    options.threads = 2;
+    snow_grid *steps = make_grid(&params, &options);
+    for (size_t i = 0; i < COUNT_OF(strides); i++) {
+        assert_ok(snow_step(passes, strides[i]));
+        assert_ok(snow_step(steps, strides[i]));
+        assert_true(digest_of(steps) == digest_of(passes));
+    }
+    assert_same_grids(steps, passes);
+    snow_destroy(passes);
+    snow_destroy(steps);
+}
+
+/* More than 1 MB of vapour in motion, wider than a strip, ice on the strips' borders and mirrors through them. */
+static void fields_larger_than_a_cache(void **state)
+{
+    (void)state;
+    enum { SEEDS = 41, APART = 97 };
+    snow_cell seeds[SEEDS];
+    for (int32_t i = 0; i < SEEDS; i++)
+        seeds[i] = (snow_cell){(i - SEEDS / 2) * APART, 0};
+    snow_reiter_params wide = rectangle_scene(0.5, 0.05, 1, 4201, 49);
+    wide.seeds = seeds;
+    wide.seed_count = SEEDS;
+    wide.record_freeze_steps = 1;
+    snow_reiter_params folded = wide;
+    folded.noise = 0.3;
+    folded.noise_symmetric = 1;
+    snow_reiter_params noisy = wide;
+    noisy.noise = 0.3;
+    noisy.seed_count = SEEDS - 1;
+    snow_reiter_params tall = disc_scene(0.6, 0.2, 1.5, 480);
+    tall.record_freeze_steps = 1;
+    tall.noise = 0.2;
+    tall.noise_symmetric = 1;
+    const snow_reiter_params scenes[] = {wide, folded, noisy, tall};
+    for (size_t i = 0; i < COUNT_OF(scenes); i++) {
+        assert_passes_equal_steps(&scenes[i], SNOW_REITER_PRECISION_DOUBLE);
+        assert_passes_equal_steps(&scenes[i], SNOW_REITER_PRECISION_SINGLE);
+    }
+}
+
+/* A pass must not step past the end of a run. */
+static void a_pass_stops_where_single_steps_stop(void **state)
+{
+    (void)state;
+    snow_reiter_params params = rectangle_scene(0.5, 0.3, 1, 300, 300);
+    params.noise = 0.3;
+    const double radii[] = {20, 21.5, 33};
+    for (size_t i = 0; i < COUNT_OF(radii); i++) {
+        for (uint64_t frozen = 0; frozen <= 900; frozen += 900) {
+            snow_stop stop = default_stop();
+            stop.tip_radius = radii[i];
+            stop.frozen = frozen;
+            snow_options options = default_options();
+            snow_grid *passes = make_grid(&params, &options);
+            options.threads = 2; /* where no pass is taken */
+            snow_grid *steps = make_grid(&params, &options);
+            snow_summary expected = run_grid(steps, &stop);
+            snow_summary summary = run_grid(passes, &stop);
+            assert_int_equal(expected.reason, summary.reason);
+            assert_int_equal(expected.steps, summary.steps);
+            assert_int_equal(expected.frozen, summary.frozen);
+            assert_same_grids(steps, passes);
+            snow_destroy(steps);
+            snow_destroy(passes);
+        }
+    }
+}
+
 /* The lattice in three colours, none next to itself: a cell of the first has six neighbours of the others. */
 static double three_colours(void *context, int32_t q, int32_t r)
 {
@@ -350,6 +426,8 @@ int main(void)
         cmocka_unit_test(every_width_of_row),
         cmocka_unit_test(every_small_disc_and_hexagon),
         cmocka_unit_test(random_scenes),
+        cmocka_unit_test(fields_larger_than_a_cache),
+        cmocka_unit_test(a_pass_stops_where_single_steps_stop),
         cmocka_unit_test(vapour_freezes_by_itself),
         cmocka_unit_test(vapour_falls_below_zero),
         cmocka_unit_test(whole_runs),

@@ -13,7 +13,7 @@
  * section 3). Cells outside the interior hold u = β for ever.
  *
  * Decisions of this library, argued in doc/reiter.md: a cell is ice where
- * u >= 1 − 2^−40; vapour is kept in whole multiples of a power of two, so that
+ * u >= 1 − 2^−40 (in single precision 1 − 2 quanta of the vapour); vapour is kept in whole multiples of a power of two, so that
  * sums are exact and no result depends on the order of additions.
  */
 #ifndef SNOWGROWTH_REITER_H
@@ -82,7 +82,7 @@ typedef enum snow_reiter_symmetry {
  */
 typedef enum snow_reiter_precision {
     SNOW_REITER_PRECISION_DOUBLE = 0, /**< In multiples of 2^−50·B, 8 bytes: ice as in exact arithmetic in every scene tried. */
-    SNOW_REITER_PRECISION_SINGLE = 1  /**< In multiples of 2^−28·B, 4 bytes: about twice as fast; close calls may fall otherwise (doc/accuracy.md). */
+    SNOW_REITER_PRECISION_SINGLE = 1  /**< In multiples of 2^−28·B, 4 bytes: about twice as fast; ice from two multiples below 1 on; close calls may fall otherwise (doc/accuracy.md). */
 } snow_reiter_precision;
 
 /**

@@ -29,6 +29,10 @@ typedef struct reiter_engine {
     /* One step of the cells; tells newly frozen cells to snow_reiter_freeze().
        On failure nothing has changed. */
     snow_status (*step)(snow_grid *grid);
+    /* How many steps the engine would rather take together from here, 0: none;
+       and takes them. NULL: it never does. */
+    int64_t (*pass_steps)(const snow_grid *grid);
+    void (*pass)(snow_grid *grid);
     /* The interior cells that it keeps. */
     const snow_domain *(*part)(const snow_grid *grid);
     /* How the engine numbers its cells, for arrays beside it: 0 to numbers − 1.
@@ -80,14 +84,10 @@ static inline reiter *reiter_of(const snow_grid *grid)
     return grid->state;
 }
 
-static inline double reiter_threshold(void)
-{
-    return 1.0 - SNOW_REITER_SLACK;
-}
-
+/* Of any precision. */
 static inline bool reiter_is_vapour(double value)
 {
-    return value >= 0 && value < reiter_threshold();
+    return value >= 0 && value < 1 - SNOW_REITER_SLACK;
 }
 
 /* Whether values beyond [0, 1) can arise where no ice is near: only then are they looked for. */
@@ -118,6 +118,14 @@ static inline float reiter_single_weight(const reiter *model)
     return weight > greatest && !reiter_overshoots(model) ? greatest : weight;
 }
 
+/* From here on u is ice. A single vapour differs from its decimal number by up
+   to half a quantum, more than the slack: ties are kept within two quanta. */
+static inline double reiter_threshold(const reiter *model)
+{
+    double slack = reiter_is_single(model) ? 2 * reiter_quantum(model) : 0;
+    return 1 - (slack > SNOW_REITER_SLACK ? slack : SNOW_REITER_SLACK);
+}
+
 /* Adding and subtracting this rounds a smaller number to the quantum. */
 static inline double reiter_rounder(const reiter *model)
 {
@@ -134,7 +142,8 @@ static inline double reiter_settled(const reiter *model, double value)
 {
     double quantum = reiter_quantum(model);
     double rounded = reiter_round(value, reiter_rounder(model));
-    return rounded < reiter_threshold() ? rounded : (ceil(reiter_threshold() / quantum) - 1) * quantum;
+    double threshold = reiter_threshold(model);
+    return rounded < threshold ? rounded : (ceil(threshold / quantum) - 1) * quantum;
 }
 
 /* β as the vapour holds it, so that no edge shows between the fixed cells and what is beyond. */
@@ -194,6 +203,8 @@ snow_status snow_reiter_unfold(snow_grid *grid, bool own_additions);
 
 /* cells.c */
 void snow_reiter_freeze(snow_grid *grid, int32_t q, int32_t r);
+/* Whether so many steps can bring ice near the rim for the first time. */
+bool snow_reiter_may_reach_rim(const snow_grid *grid, int64_t steps);
 /* Counts the frozen cells anew. */
 void snow_reiter_recount(snow_grid *grid);
 /* Chooses bound, and with it the quantum, from the greatest vapour; before settle. */

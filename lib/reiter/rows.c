@@ -163,25 +163,38 @@ static double stored(const rows *cells, double value)
 /* Whether the step that is being taken looks at what flows. */
 static bool looks(const snow_grid *grid)
 {
-    return grid->census.steps % ROWS_LOOK_STEPS == 0;
+    return grid->census.steps % ROWS_LOOK_STEPS == ROWS_LOOK_STEPS - 1;
 }
 
-static void diffuse(const snow_grid *grid, row_block *block)
+reiter_flow snow_rows_flow(const snow_grid *grid, int now)
 {
     const reiter *model = reiter_of(grid);
     const rows *cells = rows_of(grid);
-    const reiter_segment *segments = cells->segment + block->first_segment;
-    reiter_flow flow = {
-        .vapour = cells->vapour[cells->now],
-        .next = next_of(cells),
+    return (reiter_flow){
+        .vapour = cells->vapour[now],
+        .next = cells->vapour[1 - now],
         .weight = cells->single ? reiter_single_weight(model) : model->params.diffusion / 12,
         .rounder = reiter_rounder(model),
         .tolerance = stored(cells, model->params.tolerance),
     };
+}
+
+static void diffuse(const snow_grid *grid, const row_block *block)
+{
+    const rows *cells = rows_of(grid);
+    reiter_flow flow = snow_rows_flow(grid, cells->now);
+    const reiter_segment *segments = cells->segment + block->first_segment;
     if (looks(grid))
         cells->kernel->diffuse_and_look(&flow, segments, block->segments, cells->flowing);
     else
         cells->kernel->diffuse(&flow, segments, block->segments);
+}
+
+/* Whether any cell that was computed is beyond ±limit. */
+static bool exceeds(const rows *cells, const row_block *block, double limit)
+{
+    const reiter_segment *segments = cells->segment + block->first_segment;
+    return cells->kernel->exceeds(next_of(cells), segments, block->segments, stored(cells, limit));
 }
 
 /* Where nothing can go wrong, a block is computed in one go. */
@@ -198,12 +211,10 @@ static void diffuse_and_watch(void *argument, size_t index)
     const snow_grid *grid = argument;
     rows *cells = rows_of(grid);
     row_block *block = &cells->block[index];
-    const reiter_segment *segments = cells->segment + block->first_segment;
-    const double bound = stored(cells, reiter_of(grid)->bound);
-    const double highest_vapour = stored(cells, reiter_threshold() - 0x1p-53);
+    const double highest_vapour = reiter_threshold(reiter_of(grid)) - 0x1p-53;
     diffuse(grid, block);
-    block->unstable = cells->kernel->exceeds(next_of(cells), segments, block->segments, bound);
-    block->overshoots = cells->kernel->exceeds(next_of(cells), segments, block->segments, highest_vapour);
+    block->unstable = exceeds(cells, block, reiter_of(grid)->bound);
+    block->overshoots = exceeds(cells, block, highest_vapour);
 }
 
 static void collect_only(void *argument, size_t index)
@@ -231,7 +242,7 @@ static snow_status diffuse_and_collect(snow_grid *grid)
     return SNOW_OK;
 }
 
-static bool is_still(const snow_grid *grid, bool froze)
+bool snow_rows_is_still(const snow_grid *grid, bool froze)
 {
     const rows *cells = rows_of(grid);
     for (size_t i = 0; i < cells->blocks; i++)
@@ -245,7 +256,7 @@ static snow_status step(snow_grid *grid)
 {
     rows *cells = rows_of(grid);
     bool looking = looks(grid);
-    if (reiter_of(grid)->params.tolerance > 0 && grid->census.steps % ROWS_FULL_LOOK_STEPS == 0)
+    if (rows_looks_at_all(grid))
         snow_rows_wake_all(cells);
     if (cells->stale)
         snow_rows_list_segments(cells);
@@ -262,7 +273,7 @@ static snow_status step(snow_grid *grid)
         snow_rows_choose_active(grid);
     cells->now = 1 - cells->now;
     if (snow_census_looks(census->steps))
-        census->still = is_still(grid, froze);
+        census->still = snow_rows_is_still(grid, froze);
     return SNOW_OK;
 }
 
@@ -273,6 +284,8 @@ const reiter_engine snow_reiter_rows = {
     .numbers = numbers,
     .number = number,
     .step = step,
+    .pass_steps = snow_rows_pass_steps,
+    .pass = snow_rows_pass,
     .get = get,
     .put = put,
     .settle = settle,

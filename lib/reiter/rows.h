@@ -12,12 +12,14 @@
 #include "reiter/kernel.h"
 #include "reiter/model.h"
 
+/* What a pass has to visit is odd. */
 typedef enum cell_state {
     CELL_VAPOUR = 0,
     CELL_FRONT = 1,  /* receptive, not frozen */
     CELL_FROZEN = 2, /* out of reach of all vapour */
     CELL_FED = 3,    /* frozen, and fed by a fixed cell beside it */
-    CELL_OTHER = 4   /* fixed, ghost or padding */
+    CELL_OTHER = 4,  /* fixed, ghost or padding */
+    CELL_JOINING = 5 /* vapour that becomes receptive in the step that is being taken; only in a pass */
 } cell_state;
 
 /* What is kept of a receptive cell. */
@@ -35,7 +37,11 @@ typedef struct stored_band {
     size_t base; /* number of its first cell */
     int32_t first_word;
     int32_t words;
-    size_t map; /* where its words are in a map */
+    size_t map;           /* where its words are in a map */
+    size_t first_ghost;   /* of the images of its cells */
+    size_t first_segment; /* of what is computed */
+    uint32_t segments;
+    bool stale; /* they are not those of the active chunks */
 } stored_band;
 
 /* Bands that one task computes. Its cells have as much room in `listed` as
@@ -60,6 +66,7 @@ typedef struct row_block {
 typedef struct ghost_cell {
     uint32_t to;
     uint32_t from;
+    int32_t chunk; /* where the cell that it is an image of stands in its band */
 } ghost_cell;
 
 /* Cells are numbered as stored. */
@@ -79,8 +86,9 @@ typedef struct rows {
     unsigned char *state;
     receptive_cell *listed;
     uint32_t *place; /* of receptive cells: where they are listed; while cells are loose, their `since` */
-    ghost_cell *ghost;
+    ghost_cell *ghost; /* in the order of the cells that they are images of */
     size_t ghosts;
+    bool ghosts_are_near; /* none is farther than two cells from what it is an image of */
     row_block *block;
     size_t blocks;
 
@@ -89,8 +97,10 @@ typedef struct rows {
     uint64_t *valid;   /* holds cells of the part */
     uint64_t *active;  /* may change before the next look */
     uint64_t *flowing; /* changed in the step of the last look */
+    uint64_t *visited; /* in a pass: holds cells that are receptive */
     reiter_segment *segment;
-    bool stale; /* the segments are not those of `active` */
+    size_t segment_room;
+    bool stale; /* the segments are not those of `active`, or not in order */
 } rows;
 
 static inline rows *rows_of(const snow_grid *grid)
@@ -114,6 +124,13 @@ enum { ROWS_LOOK_STEPS = 8 };
 
 /* Steps between two looks at everything, where there is a tolerance. */
 enum { ROWS_FULL_LOOK_STEPS = 64 };
+
+/* Whether the step that is being taken is one. */
+static inline bool rows_looks_at_all(const snow_grid *grid)
+{
+    return reiter_of(grid)->params.tolerance > 0 &&
+           grid->census.steps % ROWS_FULL_LOOK_STEPS == ROWS_FULL_LOOK_STEPS - 1;
+}
 
 /* How far something may come in that time, in bands; in chunks it is one. */
 enum { ROWS_REACH = (ROWS_LOOK_STEPS + REITER_BAND - 1) / REITER_BAND };
@@ -168,10 +185,30 @@ void snow_rows_wake_all(rows *cells);
 void snow_rows_wake(const snow_grid *grid, int32_t q, int32_t r, bool looking);
 /* After a step that looked: what can change until the next. */
 void snow_rows_choose_active(const snow_grid *grid);
-/* Lists the segments of what is active, block by block. */
+/* Lists the segments of what is active, block by block, band by band. */
 void snow_rows_list_segments(rows *cells);
+/* Lists those of a band anew, where there is one block. */
+void snow_rows_list_band(rows *cells, int32_t band);
+
+/* rows_pass.c */
+/* How many steps a pass over the cells takes from here; 0: single steps are as good. */
+int64_t snow_rows_pass_steps(const snow_grid *grid);
+/* Takes them. */
+void snow_rows_pass(snow_grid *grid);
+
+/* rows.c */
+/* One step from the vapour in array `now` into the other. */
+reiter_flow snow_rows_flow(const snow_grid *grid, int now);
+bool snow_rows_is_still(const snow_grid *grid, bool froze);
 
 /* rows_front.c */
+/* What has diffused into a receptive cell by this step; whether it freezes. */
+bool snow_rows_collect_cell(const snow_grid *grid, uint32_t number, double inflow, bool *collected);
+/* In a pass: a cell of the front turns into ice at once. */
+void snow_rows_freeze_cell(snow_grid *grid, uint32_t number, snow_cell at);
+/* In a pass: a cell of vapour joins the front. */
+void snow_rows_join(const snow_grid *grid, void *next, snow_cell at, bool looking);
+snow_cell snow_rows_locate(const rows *cells, const row_block *block, size_t i);
 /* Gives the listed cells of a block what has diffused into them, and lists
    those that freeze. */
 void snow_rows_collect(const snow_grid *grid, row_block *block, void *next);

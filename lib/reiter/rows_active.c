@@ -36,6 +36,7 @@ static void wake_around(rows *cells, int32_t band, int32_t chunk)
             if (!has_bit(valid, at) || has_bit(active, at))
                 continue;
             rows_set_bit(active, at);
+            cells->band[near + 1].stale = true;
             cells->stale = true;
         }
     }
@@ -154,10 +155,12 @@ static bool is_full(const reiter_segment *segment)
 }
 
 /* Full chunks side by side make one segment. */
-static size_t list_band(const rows *cells, int32_t band, reiter_segment *room)
+static uint32_t list_band(const rows *cells, int32_t band, size_t first_segment)
 {
+    stored_band *stored = &cells->band[band + 1];
+    reiter_segment *room = cells->segment + first_segment;
     map_band active = rows_map(cells, cells->active, band);
-    size_t listed = 0;
+    uint32_t listed = 0;
     int32_t joins = INT32_MIN; /* the chunk that would continue the last segment */
     for (int32_t i = 0; i < active.words; i++) {
         for (uint64_t bits = active.word[i]; bits != 0; bits &= bits - 1) {
@@ -171,17 +174,34 @@ static size_t list_band(const rows *cells, int32_t band, reiter_segment *room)
             joins = full ? chunk + 1 : INT32_MIN;
         }
     }
+    stored->first_segment = first_segment;
+    stored->segments = listed;
+    stored->stale = false;
     return listed;
 }
 
 void snow_rows_list_segments(rows *cells)
 {
+    size_t listed = 0;
     for (size_t b = 0; b < cells->blocks; b++) {
         row_block *block = &cells->block[b];
-        reiter_segment *room = cells->segment + block->first_segment;
-        block->segments = 0;
+        block->first_segment = listed;
         for (int32_t band = block->first_band; band < block->end_band; band++)
-            block->segments += list_band(cells, band, room + block->segments);
+            listed += list_band(cells, band, listed);
+        block->segments = listed - block->first_segment;
     }
     cells->stale = false;
+}
+
+/* Behind the others while there is room; then all are listed again. */
+void snow_rows_list_band(rows *cells, int32_t band)
+{
+    row_block *block = &cells->block[0];
+    map_band valid = rows_map(cells, cells->valid, band);
+    if (block->segments + (size_t)valid.words * 64 > cells->segment_room) {
+        snow_rows_list_segments(cells);
+        return;
+    }
+    block->segments += list_band(cells, band, block->segments);
+    cells->stale = true;
 }

@@ -24,6 +24,16 @@ static void move_to_ice(rows *cells, row_block *block, size_t place)
     block->fresh++;
 }
 
+/* Whether it freezes. Notes, for the stop condition STILL, whether it may do so one day. */
+static inline bool collect_inflow(receptive_cell *cell, double inflow, double addition, uint32_t step,
+                                  double threshold, bool *collected)
+{
+    cell->collected += inflow;
+    double missing = threshold - (cell->collected + addition * (step - cell->since));
+    *collected |= missing > 0 && inflow * REITER_STILL_STEPS >= missing;
+    return missing <= 0;
+}
+
 /* The vapour of a receptive cell counts as zero, so what the kernel computed
    for it is just what has diffused into it. */
 static inline void collect(const snow_grid *grid, row_block *block, void *next, bool single, const double *addition_at)
@@ -32,7 +42,7 @@ static inline void collect(const snow_grid *grid, row_block *block, void *next, 
     receptive_cell *listed = cells->listed;
     uint32_t step = (uint32_t)grid->census.steps + 1;
     const double addition = reiter_of(grid)->params.addition;
-    const double threshold = reiter_threshold();
+    const double threshold = reiter_threshold(reiter_of(grid));
     const double quantum = cells->quantum;
     bool collected = false;
     block->fresh = 0;
@@ -40,17 +50,11 @@ static inline void collect(const snow_grid *grid, row_block *block, void *next, 
         receptive_cell *cell = &listed[place];
         uint32_t number = cell->number;
         double inflow = rows_take_from(next, number, single, quantum);
-        cell->collected += inflow;
         double own = addition_at != NULL ? addition_at[number] : addition;
-        double missing = threshold - (cell->collected + own * (step - cell->since));
-        if (missing > 0) {
-            collected |= inflow * REITER_STILL_STEPS >= missing;
-            place++;
-        } else if (cells->state[number] == CELL_FED) {
-            place++;
-        } else {
+        if (collect_inflow(cell, inflow, own, step, threshold, &collected) && cells->state[number] != CELL_FED)
             move_to_ice(cells, block, place);
-        }
+        else
+            place++;
     }
     block->collected = collected;
 }
@@ -70,7 +74,7 @@ void snow_rows_overshoot(const snow_grid *grid, row_block *block, const void *ne
 {
     rows *cells = rows_of(grid);
     for (size_t i = block->first; i < block->end; i++) {
-        if (cells->state[i] == CELL_VAPOUR && rows_value_in(cells, next, i) >= reiter_threshold()) {
+        if (cells->state[i] == CELL_VAPOUR && rows_value_in(cells, next, i) >= reiter_threshold(reiter_of(grid))) {
             add_to_ice(cells, block, (receptive_cell){.number = (uint32_t)i});
             block->fresh++;
         }
@@ -92,7 +96,7 @@ static int32_t band_of(const rows *cells, const row_block *block, size_t i)
     return first;
 }
 
-static snow_cell locate(const rows *cells, const row_block *block, size_t i)
+snow_cell snow_rows_locate(const rows *cells, const row_block *block, size_t i)
 {
     int32_t band = band_of(cells, block, i);
     const stored_band *stored = &cells->band[band + 1];
@@ -181,18 +185,46 @@ bool snow_rows_freeze(snow_grid *grid, void *next, bool looking)
         receptive_cell *fresh = cells->listed + block->end - block->ice;
         any = any || block->fresh > 0;
         for (size_t i = 0; i < block->fresh; i++)
-            freeze_cell(grid, next, &fresh[i], locate(cells, block, fresh[i].number), looking);
+            freeze_cell(grid, next, &fresh[i], snow_rows_locate(cells, block, fresh[i].number), looking);
     }
     for (size_t b = 0; b < cells->blocks; b++) {
         row_block *block = &cells->block[b];
         size_t first = block->end - block->ice;
         for (size_t place = first; place < first + block->fresh; place++) {
-            snow_cell at = locate(cells, block, cells->listed[place].number);
+            snow_cell at = snow_rows_locate(cells, block, cells->listed[place].number);
             extend_front(grid, next, at, looking);
             feed_if_at_rim(grid, block, place, at);
         }
     }
     return any;
+}
+
+bool snow_rows_collect_cell(const snow_grid *grid, uint32_t number, double inflow, bool *collected)
+{
+    const rows *cells = rows_of(grid);
+    receptive_cell *cell = &cells->listed[cells->place[number]];
+    double addition = reiter_addition(reiter_of(grid), number);
+    double threshold = reiter_threshold(reiter_of(grid));
+    return collect_inflow(cell, inflow, addition, (uint32_t)grid->census.steps, threshold, collected) &&
+           cells->state[number] != CELL_FED;
+}
+
+void snow_rows_freeze_cell(snow_grid *grid, uint32_t number, snow_cell at)
+{
+    rows *cells = rows_of(grid);
+    bool fed = snow_rows_touches_fixed(grid, at.q, at.r);
+    cells->state[number] = fed ? CELL_FED : CELL_FROZEN;
+    if (!fed)
+        move_to_ice(cells, block_of(cells, number), cells->place[number]);
+    snow_reiter_freeze(grid, at.q, at.r);
+}
+
+void snow_rows_join(const snow_grid *grid, void *next, snow_cell at, bool looking)
+{
+    rows *cells = rows_of(grid);
+    receptive_cell cell = take_vapour(grid, next, at, looking);
+    cells->state[cell.number] = CELL_FRONT;
+    add_to_front(cells, cell);
 }
 
 bool snow_rows_front_gains(const snow_grid *grid)

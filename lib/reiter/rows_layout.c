@@ -1,4 +1,5 @@
 /* Where the cells of the ROWS engine are stored. */
+#include "base/hexagon.h"
 #include "reiter/rows.h"
 
 #include <stdlib.h>
@@ -88,11 +89,24 @@ static snow_status place_bands(rows *cells, snow_heap *heap)
     return count < UINT32_MAX ? SNOW_OK : SNOW_ERROR_TOO_LARGE;
 }
 
+/* The two arrays lie half a page apart, less whole pages: where they lie alike, a
+   processor takes what it loads from one for what it has just stored into the
+   other, and waits. */
+static bool place_vapour(rows *cells, snow_heap *heap)
+{
+    enum { PAGE = 4096 };
+    size_t size = rows_vapour_size(cells);
+    size_t page = PAGE / size;
+    size_t apart = cells->count / page * page + page + page / 2;
+    cells->vapour[0] = snow_heap_get(heap, apart + cells->count, size);
+    cells->vapour[1] = cells->vapour[0] != NULL ? (char *)cells->vapour[0] + apart * size : NULL;
+    return cells->vapour[0] != NULL;
+}
+
 static snow_status place_cells(rows *cells, snow_heap *heap)
 {
     size_t count = cells->count;
-    bool complete = (cells->vapour[0] = snow_heap_get(heap, count, rows_vapour_size(cells))) != NULL &&
-                    (cells->vapour[1] = snow_heap_get(heap, count, rows_vapour_size(cells))) != NULL &&
+    bool complete = place_vapour(cells, heap) &&
                     (cells->state = snow_heap_get_raw(heap, count, sizeof *cells->state)) != NULL &&
                     (cells->place = snow_heap_get_raw(heap, count, sizeof *cells->place)) != NULL &&
                     (cells->listed = snow_heap_get_raw(heap, count, sizeof *cells->listed)) != NULL;
@@ -119,14 +133,16 @@ typedef struct ghost_list {
 
 static void note_ghosts(const snow_grid *grid, int32_t first, int32_t end, int32_t r, ghost_list *ghosts)
 {
-    const rows *cells = rows_of(grid);
+    rows *cells = rows_of(grid);
     for (int32_t q = first; q < end; q++) {
         if (!is_ghost(grid, q, r))
             continue;
         if (ghosts->room != NULL) {
             snow_cell from = snow_group_representative(reiter_of(grid)->group, q, r);
             ghosts->room[ghosts->count] =
-                (ghost_cell){(uint32_t)rows_number(cells, q, r), (uint32_t)rows_number(cells, from.q, from.r)};
+                (ghost_cell){(uint32_t)rows_number(cells, q, r), (uint32_t)rows_number(cells, from.q, from.r),
+                             rows_chunk_floor(from.q) / REITER_CHUNK};
+            cells->ghosts_are_near = cells->ghosts_are_near && snow_hexagon_distance(from.q - q, from.r - r) <= 2;
         }
         ghosts->count++;
     }
@@ -160,6 +176,13 @@ static size_t find_ghosts(const snow_grid *grid, ghost_cell *room)
     return ghosts.count;
 }
 
+static int compare_origins(const void *a, const void *b)
+{
+    uint32_t from_a = ((const ghost_cell *)a)->from;
+    uint32_t from_b = ((const ghost_cell *)b)->from;
+    return (from_a > from_b) - (from_a < from_b);
+}
+
 static int compare_ghosts(const void *a, const void *b)
 {
     uint32_t to_a = ((const ghost_cell *)a)->to;
@@ -167,9 +190,25 @@ static int compare_ghosts(const void *a, const void *b)
     return (to_a > to_b) - (to_a < to_b);
 }
 
+static void sort_ghosts(rows *cells, size_t found)
+{
+    qsort(cells->ghost, found, sizeof *cells->ghost, compare_ghosts);
+    for (size_t i = 0; i < found; i++)
+        if (i == 0 || cells->ghost[i].to != cells->ghost[i - 1].to)
+            cells->ghost[cells->ghosts++] = cells->ghost[i];
+    qsort(cells->ghost, cells->ghosts, sizeof *cells->ghost, compare_origins);
+    size_t ghost = 0;
+    for (int32_t i = 0; i < cells->bands + 3; i++) {
+        while (ghost < cells->ghosts && cells->ghost[ghost].from < cells->band[i].base)
+            ghost++;
+        cells->band[i].first_ghost = ghost;
+    }
+}
+
 static snow_status place_ghosts(const snow_grid *grid, snow_heap *heap)
 {
     rows *cells = rows_of(grid);
+    cells->ghosts_are_near = true;
     if (reiter_of(grid)->group == SNOW_GROUP_TRIVIAL)
         return SNOW_OK;
     size_t found = find_ghosts(grid, NULL);
@@ -177,10 +216,7 @@ static snow_status place_ghosts(const snow_grid *grid, snow_heap *heap)
     if (cells->ghost == NULL)
         return heap->refusal;
     find_ghosts(grid, cells->ghost);
-    qsort(cells->ghost, found, sizeof *cells->ghost, compare_ghosts);
-    for (size_t i = 0; i < found; i++)
-        if (i == 0 || cells->ghost[i].to != cells->ghost[i - 1].to)
-            cells->ghost[cells->ghosts++] = cells->ghost[i];
+    sort_ghosts(cells, found);
     return SNOW_OK;
 }
 
@@ -208,15 +244,13 @@ static void cut_blocks(rows *cells)
 {
     const snow_domain *part = &cells->part;
     int32_t band = 0;
-    size_t segments = 0;
     for (size_t i = 0; i < cells->blocks; i++) {
         row_block *block = &cells->block[i];
         uint64_t target = (uint64_t)part->cells * (i + 1) / cells->blocks;
         int32_t bands_to_leave = (int32_t)(cells->blocks - 1 - i);
         block->first_band = band;
-        block->first_segment = segments;
         do
-            segments += most_segments(cells, band++);
+            band++;
         while (band < cells->bands - bands_to_leave && part->run[band * REITER_BAND].number < target);
         block->end_band = band;
         block->first = cells->band[block->first_band + 1].base;
@@ -250,9 +284,11 @@ static snow_status place_maps(rows *cells, snow_heap *heap)
         place_in_maps(cells, band);
         segments += most_segments(cells, band);
     }
+    cells->segment_room = segments;
     bool complete = (cells->valid = snow_heap_get(heap, cells->map_words, sizeof(uint64_t))) != NULL &&
                     (cells->active = snow_heap_get(heap, cells->map_words, sizeof(uint64_t))) != NULL &&
                     (cells->flowing = snow_heap_get(heap, cells->map_words, sizeof(uint64_t))) != NULL &&
+                    (cells->visited = snow_heap_get(heap, cells->map_words, sizeof(uint64_t))) != NULL &&
                     (cells->segment = snow_heap_get_raw(heap, segments, sizeof *cells->segment)) != NULL;
     if (!complete)
         return heap->refusal;
@@ -300,7 +336,6 @@ void snow_rows_destroy(snow_grid *grid)
     snow_heap_put(heap, cells->offset);
     snow_heap_put(heap, cells->band);
     snow_heap_put(heap, cells->vapour[0]);
-    snow_heap_put(heap, cells->vapour[1]);
     snow_heap_put(heap, cells->state);
     snow_heap_put(heap, cells->place);
     snow_heap_put(heap, cells->listed);
@@ -309,6 +344,7 @@ void snow_rows_destroy(snow_grid *grid)
     snow_heap_put(heap, cells->valid);
     snow_heap_put(heap, cells->active);
     snow_heap_put(heap, cells->flowing);
+    snow_heap_put(heap, cells->visited);
     snow_heap_put(heap, cells->segment);
     snow_heap_put(heap, cells);
 }

@@ -126,7 +126,7 @@ static snow_status load_scene(snow_source *source, saved_scene *scene)
 /* Above α = 2 cells can collect less than nothing, but not without end. */
 static const double greatest_collected = 0x1p20;
 
-static bool is_sound_cell(const saved_scene *scene, const reiter_cell *cell, double addition)
+static bool is_sound_cell(const reiter *model, const saved_scene *scene, const reiter_cell *cell, double addition)
 {
     if (!isfinite(cell->value) || !isfinite(cell->low) || !(addition >= 0 && addition <= 1))
         return false;
@@ -135,7 +135,7 @@ static bool is_sound_cell(const saved_scene *scene, const reiter_cell *cell, dou
     if (cell->frozen)
         return true;
     double greatest = cell->receptive ? greatest_collected : scene->bound;
-    return fabs(cell->value) <= greatest && reiter_value(cell, addition) < reiter_threshold();
+    return fabs(cell->value) <= greatest && reiter_value(cell, addition) < reiter_threshold(model);
 }
 
 static void load_value(const reiter *model, snow_source *source, reiter_cell *cell)
@@ -161,7 +161,7 @@ static snow_status load_cell(snow_grid *grid, snow_source *source, const saved_s
         addition = model->addition_at[number] = snow_source_double(source);
     if (source->truncated)
         return SNOW_ERROR_TRUNCATED;
-    if (kind > KIND_FROZEN || !is_sound_cell(scene, &cell, addition))
+    if (kind > KIND_FROZEN || !is_sound_cell(model, scene, &cell, addition))
         return SNOW_ERROR_DAMAGED;
     model->engine->put(grid, at.q, at.r, &cell);
     return SNOW_OK;
@@ -175,7 +175,7 @@ static snow_status load_fixed(snow_grid *grid, snow_source *source, const saved_
         load_value(model, source, &cell);
         if (source->truncated)
             return SNOW_ERROR_TRUNCATED;
-        if (!is_sound_cell(scene, &cell, 0))
+        if (!is_sound_cell(model, scene, &cell, 0))
             return SNOW_ERROR_DAMAGED;
         model->engine->put(grid, walk.cell.q, walk.cell.r, &cell);
     }
