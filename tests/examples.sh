@@ -245,6 +245,12 @@ test_wrong() {
     bad table --betas 0.1,,0.2
     bad table --betas 0.1,1
     bad table --gammas ,
+    bad table --betas 0:0.9
+    bad table --betas 0:0.9:1
+    bad table --betas 0:0.9:2.5
+    bad table --betas 0:0.9:257
+    bad table --betas 0:0.9:3logs
+    bad table --gammas 0:1:3log
     bad table --polish --radius 50
     bad table --panel 0
     bad table --threads -1
@@ -349,6 +355,9 @@ test_sheets() {
     check 'table: the same with one thread' cmp -s table.png threads.png
     run table --polish --betas .6 --gammas .05 --panel 60 --out polish.png
     check 'table --polish' drew polish.png
+    run table --betas 0:.9:4,.95 --gammas .0001:1:3log --radius 12 --panel 16 --out ranges.png --csv ranges.csv
+    check 'table: ranges have as many numbers as they say' [ "$(lines ranges.csv)" -eq 16 ]
+    check 'table: ranges with equal ratios' grep -q '^0.95,0.01,' ranges.csv
     run table --betas .4 --gammas 0.01 --radius 20 --palette age --panel 16 --out age.png
     check 'table --palette age' drew age.png
     run alpha_sweep --radius 40 --tip 30 --panel 60 --out alpha.png

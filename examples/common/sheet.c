@@ -127,16 +127,25 @@ static layout lay_out(const sheet *self)
     return place;
 }
 
+/* Columns from a label to the next, so that none covers another. */
+static int32_t label_interval(const sheet *self, const layout *place)
+{
+    double widest = 0;
+    for (int32_t i = 0; i < self->columns; i++)
+        widest = fmax(widest, label_width(self->column_labels[i], place->text));
+    return (int32_t)((widest + place->text) / place->column) + 1;
+}
+
 static void write_words(const sheet *self, const picture *image, const layout *place)
 {
     picture target = *image;
     double text = place->text;
     double half = self->panel_size / 2.0;
-    for (int32_t i = 0; self->column_labels && i < self->columns; i++)
+    for (int32_t i = 0; self->column_labels && i < self->columns; i += label_interval(self, place))
         label_draw(&target, self->column_labels[i], text,
                    place->left + i * place->column + half - label_width(self->column_labels[i], text) / 2,
                    place->top - text, words);
-    for (int32_t i = 0; self->row_labels && i < self->rows; i++)
+    for (int32_t i = 0; self->row_labels && i < self->rows; i += (int32_t)(1.5 * text / place->row) + 1)
         label_draw(&target, self->row_labels[i], text,
                    place->left - text - label_width(self->row_labels[i], text),
                    place->top + i * place->row + half + text / 2, words);
