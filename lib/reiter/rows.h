@@ -202,8 +202,17 @@ reiter_flow snow_rows_flow(const snow_grid *grid, int now);
 bool snow_rows_is_still(const snow_grid *grid, bool froze);
 
 /* rows_front.c */
-/* What has diffused into a receptive cell by this step; whether it freezes. */
-bool snow_rows_collect_cell(const snow_grid *grid, uint32_t number, double inflow, bool *collected);
+/* A receptive cell takes what has flowed in; whether it freezes. Notes, for the
+   stop condition STILL, whether it may do so one day. */
+static inline bool rows_collect_inflow(receptive_cell *cell, double inflow, double addition, uint32_t step,
+                                       double threshold, bool *collected)
+{
+    cell->collected += inflow;
+    double missing = threshold - (cell->collected + addition * (step - cell->since));
+    *collected |= missing > 0 && inflow * REITER_STILL_STEPS >= missing;
+    return missing <= 0;
+}
+
 /* In a pass: a cell of the front turns into ice at once. */
 void snow_rows_freeze_cell(snow_grid *grid, uint32_t number, snow_cell at);
 /* In a pass: a cell of vapour joins the front. */

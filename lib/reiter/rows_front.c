@@ -24,16 +24,6 @@ static void move_to_ice(rows *cells, row_block *block, size_t place)
     block->fresh++;
 }
 
-/* Whether it freezes. Notes, for the stop condition STILL, whether it may do so one day. */
-static inline bool collect_inflow(receptive_cell *cell, double inflow, double addition, uint32_t step,
-                                  double threshold, bool *collected)
-{
-    cell->collected += inflow;
-    double missing = threshold - (cell->collected + addition * (step - cell->since));
-    *collected |= missing > 0 && inflow * REITER_STILL_STEPS >= missing;
-    return missing <= 0;
-}
-
 /* The vapour of a receptive cell counts as zero, so what the kernel computed
    for it is just what has diffused into it. */
 static inline void collect(const snow_grid *grid, row_block *block, void *next, bool single, const double *addition_at)
@@ -51,7 +41,7 @@ static inline void collect(const snow_grid *grid, row_block *block, void *next, 
         uint32_t number = cell->number;
         double inflow = rows_take_from(next, number, single, quantum);
         double own = addition_at != NULL ? addition_at[number] : addition;
-        if (collect_inflow(cell, inflow, own, step, threshold, &collected) && cells->state[number] != CELL_FED)
+        if (rows_collect_inflow(cell, inflow, own, step, threshold, &collected) && cells->state[number] != CELL_FED)
             move_to_ice(cells, block, place);
         else
             place++;
@@ -197,16 +187,6 @@ bool snow_rows_freeze(snow_grid *grid, void *next, bool looking)
         }
     }
     return any;
-}
-
-bool snow_rows_collect_cell(const snow_grid *grid, uint32_t number, double inflow, bool *collected)
-{
-    const rows *cells = rows_of(grid);
-    receptive_cell *cell = &cells->listed[cells->place[number]];
-    double addition = reiter_addition(reiter_of(grid), number);
-    double threshold = reiter_threshold(reiter_of(grid));
-    return collect_inflow(cell, inflow, addition, (uint32_t)grid->census.steps, threshold, collected) &&
-           cells->state[number] != CELL_FED;
 }
 
 void snow_rows_freeze_cell(snow_grid *grid, uint32_t number, snow_cell at)

@@ -22,7 +22,8 @@ enum {
     PASS_LAST = PASS_STEPS - 1,
     PASS_LAG = 2,
     PASS_SKEW = 2,
-    PASS_CACHE = 1 << 20 /* bytes of vapour that a strip keeps in use, and that single steps keep */
+    PASS_STRIP_BYTES = 1 << 20, /* of vapour, that a strip keeps in use */
+    PASS_LEAST_BYTES = 1 << 22  /* of vapour in motion; less than that stays near in single steps, too */
 };
 
 typedef struct pass {
@@ -32,6 +33,7 @@ typedef struct pass {
     int32_t strip; /* its chunks in the first step */
     int32_t width;
     reiter_flow flow[PASS_STEPS];
+    double threshold;
     bool collected; /* in the last step */
     bool froze;
 } pass;
@@ -57,7 +59,7 @@ static size_t chunk_bytes(const rows *cells)
 static int32_t strip_width(const rows *cells)
 {
     enum { BANDS_IN_USE = PASS_LAG * PASS_LAST + 3 };
-    return (int32_t)(PASS_CACHE / (BANDS_IN_USE * chunk_bytes(cells)));
+    return (int32_t)(PASS_STRIP_BYTES / (BANDS_IN_USE * chunk_bytes(cells)));
 }
 
 int64_t snow_rows_pass_steps(const snow_grid *grid)
@@ -66,12 +68,13 @@ int64_t snow_rows_pass_steps(const snow_grid *grid)
     int64_t steps = grid->census.steps;
     bool whole = cells->blocks == 1 && cells->ghosts_are_near && !reiter_overshoots(reiter_of(grid));
     bool looks_at_all = reiter_of(grid)->params.tolerance > 0 && (steps + PASS_STEPS) % ROWS_FULL_LOOK_STEPS == 0;
-    if (!whole || looks_at_all || steps % PASS_STEPS != 0)
+    bool looks_for_stillness = steps == 0; /* in the first step */
+    if (!whole || looks_at_all || looks_for_stillness || steps % PASS_STEPS != 0)
         return 0;
     size_t active = 0;
     for (size_t i = 0; i < cells->map_words; i++)
         active += (size_t)__builtin_popcountll(cells->active[i]);
-    return active * chunk_bytes(cells) > PASS_CACHE ? PASS_STEPS : 0;
+    return active * chunk_bytes(cells) > PASS_LEAST_BYTES ? PASS_STEPS : 0;
 }
 
 /* What is left of a segment within so many bits of the map. */
@@ -155,38 +158,45 @@ static void freeze(pass *all, int32_t step, int32_t band, uint32_t number, snow_
     reach(all, step, band, at.q, at.r + 1);
 }
 
-static void visit_cell(pass *all, int32_t step, int32_t band, snow_cell at)
+/* A receptive cell, or one that joins them now. */
+static void visit_cell(pass *all, int32_t step, int32_t band, uint32_t number, snow_cell at)
 {
-    rows *cells = all->cells;
+    const rows *cells = all->cells;
     void *next = all->flow[step].next;
-    uint32_t number = (uint32_t)rows_number(cells, at.q, at.r);
     if (cells->state[number] == CELL_JOINING) {
         snow_rows_join(all->grid, next, at, step == PASS_LAST);
         return;
     }
     bool collected = false;
     double inflow = rows_take_from(next, number, cells->single, cells->quantum);
-    if (snow_rows_collect_cell(all->grid, number, inflow, &collected))
+    double addition = reiter_addition(reiter_of(all->grid), number);
+    if (rows_collect_inflow(&cells->listed[cells->place[number]], inflow, addition, (uint32_t)(all->start + step + 1),
+                            all->threshold, &collected) &&
+        cells->state[number] != CELL_FED)
         freeze(all, step, band, number, at);
     all->collected = all->collected || (collected && step == PASS_LAST);
 }
 
-/* Cells with odd states. Those that join while the chunk is visited are not of this visit. */
+/* A bit for each of eight states, set where the state is odd. */
+static uint32_t odd_ones(const unsigned char *state)
+{
+    uint32_t odd = 0;
+    for (int column = 0; column < REITER_CHUNK; column++)
+        odd |= (uint32_t)(state[column] & 1) << column;
+    return odd;
+}
+
+/* Cells that join while the chunk is visited are not of this visit. */
 static void visit_chunk(pass *all, int32_t step, int32_t band, int32_t chunk)
 {
     const rows *cells = all->cells;
-    uint32_t odd = 0;
+    snow_cell corner = {chunk * REITER_CHUNK, cells->part.top + band * REITER_BAND};
     for (int32_t own = 0; own < REITER_BAND; own++) {
-        const unsigned char *state =
-            cells->state + rows_number(cells, chunk * REITER_CHUNK, cells->part.top + band * REITER_BAND + own);
-        for (int32_t column = 0; column < REITER_CHUNK; column++)
-            odd |= (uint32_t)(state[column] & 1) << (own * REITER_CHUNK + column);
-    }
-    for (; odd != 0; odd &= odd - 1) {
-        int32_t place = __builtin_ctz(odd);
-        visit_cell(all, step, band,
-                   (snow_cell){chunk * REITER_CHUNK + place % REITER_CHUNK,
-                               cells->part.top + band * REITER_BAND + place / REITER_CHUNK});
+        uint32_t first = (uint32_t)rows_number(cells, corner.q, corner.r + own);
+        for (uint32_t odd = odd_ones(cells->state + first); odd != 0; odd &= odd - 1) {
+            uint32_t column = (uint32_t)__builtin_ctz(odd);
+            visit_cell(all, step, band, first + column, (snow_cell){corner.q + (int32_t)column, corner.r + own});
+        }
     }
 }
 
@@ -263,7 +273,8 @@ static chunk_range widest_range(const rows *cells)
 void snow_rows_pass(snow_grid *grid)
 {
     rows *cells = rows_of(grid);
-    pass all = {.grid = grid, .cells = cells, .start = grid->census.steps, .width = strip_width(cells)};
+    pass all = {.grid = grid, .cells = cells, .start = grid->census.steps, .width = strip_width(cells),
+                .threshold = reiter_threshold(reiter_of(grid))};
     for (int step = 0; step < PASS_STEPS; step++)
         all.flow[step] = snow_rows_flow(grid, (cells->now + step) % 2);
     if (cells->stale)
