@@ -79,7 +79,7 @@ static SNOW_APART snow_summary summarise(const snow_grid *grid, snow_stop_reason
         .struct_size = sizeof(snow_summary),
         .reason = reason,
         .steps = grid->census.steps,
-        .frozen = grid->census.frozen,
+        .frozen = snow_census_frozen(&grid->census),
         .tip_radius = snow_census_tip(&grid->census),
         .seconds = now() - started,
     };
@@ -93,7 +93,7 @@ static snow_stop_reason crystal_stops(const snow_grid *grid, const snow_stop *st
         return SNOW_STOP_RIM;
     if (stop->tip_radius > 0 && snow_census_tip(&grid->census) >= stop->tip_radius)
         return SNOW_STOP_RADIUS;
-    if (stop->frozen > 0 && census->frozen >= stop->frozen)
+    if (stop->frozen > 0 && snow_census_frozen(census) >= stop->frozen)
         return SNOW_STOP_FROZEN;
     if (stop->still && census->still)
         return SNOW_STOP_STILL;
