@@ -47,6 +47,9 @@ void snow_census_start(snow_census *census);
 /* Counts a cell that froze; the model itself sets `rim` and `still`. */
 void snow_census_add(snow_census *census, int32_t q, int32_t r);
 
+/* Which of the conditions on the crystal alone holds, if any. */
+snow_stop_reason snow_crystal_stops(const snow_grid *grid, const snow_stop *stop);
+
 /* The operations of a model. Arguments are checked before they are called:
    pointers are not NULL, enumerations known, rectangles in range. Fields are
    read and written a run of cells at a time. */
