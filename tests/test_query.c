@@ -24,6 +24,7 @@ static void null_pointers_are_refused(void **state)
     double real;
     size_t size;
     snow_rect rect;
+    snow_hexagon hexagon;
     snow_isa isa;
     snow_model model;
     snow_reiter_conditions conditions;
@@ -36,6 +37,8 @@ static void null_pointers_are_refused(void **state)
     assert_status(SNOW_ERROR_NULL, snow_tip_radius(grid, NULL));
     assert_status(SNOW_ERROR_NULL, snow_frozen_bounds(NULL, &rect));
     assert_status(SNOW_ERROR_NULL, snow_frozen_bounds(grid, NULL));
+    assert_status(SNOW_ERROR_NULL, snow_frozen_hexagon(NULL, &hexagon));
+    assert_status(SNOW_ERROR_NULL, snow_frozen_hexagon(grid, NULL));
     assert_status(SNOW_ERROR_NULL, snow_domain_bounds(NULL, &rect));
     assert_status(SNOW_ERROR_NULL, snow_domain_bounds(grid, NULL));
     assert_status(SNOW_ERROR_NULL, snow_domain_cells(NULL, &number));
@@ -84,6 +87,7 @@ static void counts_agree_with_the_fields(void **state)
     uint64_t inside = 0, frozen = 0;
     int64_t tip_square = 0;
     int32_t least_q = INT32_MAX, most_q = INT32_MIN, least_r = INT32_MAX, most_r = INT32_MIN;
+    int32_t least_s = INT32_MAX, most_s = INT32_MIN;
     for (int32_t r = rect.r; r < rect.r + rect.height; r++) {
         for (int32_t q = rect.q; q < rect.q + rect.width; q++) {
             inside += value_at(grid, SNOW_FIELD_INSIDE, q, r) == 1;
@@ -96,6 +100,8 @@ static void counts_agree_with_the_fields(void **state)
             most_q = q > most_q ? q : most_q;
             least_r = r < least_r ? r : least_r;
             most_r = r > most_r ? r : most_r;
+            least_s = q + r < least_s ? q + r : least_s;
+            most_s = q + r > most_s ? q + r : most_s;
         }
     }
     assert_int_equal(inside, cells_of(grid));
@@ -108,6 +114,14 @@ static void counts_agree_with_the_fields(void **state)
     assert_int_equal(least_r, bounds.r);
     assert_int_equal(most_q - least_q + 1, bounds.width);
     assert_int_equal(most_r - least_r + 1, bounds.height);
+    snow_hexagon hexagon;
+    assert_ok(snow_frozen_hexagon(grid, &hexagon));
+    assert_int_equal(least_q, hexagon.least_q);
+    assert_int_equal(most_q, hexagon.greatest_q);
+    assert_int_equal(least_r, hexagon.least_r);
+    assert_int_equal(most_r, hexagon.greatest_r);
+    assert_int_equal(least_s, hexagon.least_s);
+    assert_int_equal(most_s, hexagon.greatest_s);
     snow_destroy(grid);
 }
 

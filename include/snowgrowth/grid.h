@@ -60,6 +60,20 @@ typedef struct snow_rect {
     int32_t height; /**< Number of rows, 0 or more. */
 } snow_rect;
 
+/**
+ * @brief A hexagon of cells with sides along the lattice's axes: those with
+ * least_q <= q <= greatest_q, least_r <= r <= greatest_r and
+ * least_s <= q + r <= greatest_s. It is empty where a least is greater.
+ */
+typedef struct snow_hexagon {
+    int64_t least_q;    /**< Least q. */
+    int64_t greatest_q; /**< Greatest q. */
+    int64_t least_r;    /**< Least r. */
+    int64_t greatest_r; /**< Greatest r. */
+    int64_t least_s;    /**< Least q + r. */
+    int64_t greatest_s; /**< Greatest q + r. */
+} snow_hexagon;
+
 /** @brief What can be read from cells, and in part be set. */
 typedef enum snow_field {
     SNOW_FIELD_VALUE = 1,       /**< The cell's value: vapour below 1, ice from 1 on (Reiter's u). */
@@ -97,7 +111,7 @@ typedef struct snow_summary {
     size_t struct_size;      /**< Set by snow_summary_init(). */
     snow_stop_reason reason; /**< Why the run ended. */
     int64_t steps;           /**< Steps since the grid was created. */
-    uint64_t frozen;         /**< Frozen cells. */
+    uint64_t frozen;         /**< Frozen cells; 2^64 − 1 stands for more. */
     double tip_radius;       /**< Greatest distance of a frozen cell from the origin, in lattice spacings. */
     double seconds;          /**< Wall-clock time that this run has taken. */
 } snow_summary;
@@ -226,7 +240,8 @@ SNOW_API snow_status snow_steps(const snow_grid *grid, int64_t *steps);
  * @brief Number of frozen cells.
  * @param grid the grid.
  * @param cells receives the number.
- * @return ::SNOW_OK or ::SNOW_ERROR_NULL. Cost: constant.
+ * @return ::SNOW_OK or ::SNOW_ERROR_NULL; ::SNOW_ERROR_TOO_LARGE for 2^64
+ *         cells or more. Cost: constant.
  */
 SNOW_API snow_status snow_frozen(const snow_grid *grid, uint64_t *cells);
 
@@ -242,15 +257,30 @@ SNOW_API snow_status snow_tip_radius(const snow_grid *grid, double *radius);
  * @brief The smallest rectangle that holds every frozen cell.
  * @param grid the grid.
  * @param bounds receives it; width and height are 0 when nothing is frozen.
- * @return ::SNOW_OK or ::SNOW_ERROR_NULL. Cost: constant.
+ * @return ::SNOW_OK or ::SNOW_ERROR_NULL; ::SNOW_ERROR_TOO_LARGE when a cell
+ *         lies 2^30 or more from an axis. Cost: constant.
  */
 SNOW_API snow_status snow_frozen_bounds(const snow_grid *grid, snow_rect *bounds);
 
 /**
+ * @brief The smallest hexagon that holds every frozen cell.
+ * @param grid the grid.
+ * @param hexagon receives it; empty when nothing is frozen.
+ * @return ::SNOW_OK or ::SNOW_ERROR_NULL. Cost: constant.
+ */
+SNOW_API snow_status snow_frozen_hexagon(const snow_grid *grid, snow_hexagon *hexagon);
+
+/**
  * @brief The smallest rectangle that holds the interior of the domain.
+ *
+ * The interior of an unbounded plane is as much of it as matters: the smallest
+ * hexagon that holds the frozen cells and their neighbours. It grows as the
+ * crystal does.
+ *
  * @param grid the grid.
  * @param bounds receives it.
- * @return ::SNOW_OK or ::SNOW_ERROR_NULL. Cost: constant.
+ * @return ::SNOW_OK or ::SNOW_ERROR_NULL; ::SNOW_ERROR_TOO_LARGE when a cell
+ *         lies 2^30 or more from an axis. Cost: constant.
  */
 SNOW_API snow_status snow_domain_bounds(const snow_grid *grid, snow_rect *bounds);
 
@@ -258,7 +288,7 @@ SNOW_API snow_status snow_domain_bounds(const snow_grid *grid, snow_rect *bounds
  * @brief Number of cells in the interior of the domain.
  * @param grid the grid.
  * @param cells receives the number.
- * @return ::SNOW_OK or ::SNOW_ERROR_NULL. Cost: constant.
+ * @return as snow_domain_bounds().
  */
 SNOW_API snow_status snow_domain_cells(const snow_grid *grid, uint64_t *cells);
 
@@ -296,6 +326,7 @@ SNOW_API snow_status snow_cell_value(const snow_grid *grid, snow_field field, in
  *        be NULL unless values is.
  * @return as snow_cell_value(); ::SNOW_ERROR_RECTANGLE when the rectangle has
  *         a negative extent or leaves the range of int32_t;
+ *         ::SNOW_ERROR_TOO_LARGE where snow_domain_bounds() says so;
  *         ::SNOW_ERROR_BUFFER when capacity is too small, nothing is copied.
  *         Cost: proportional to the rectangle.
  */
@@ -330,7 +361,8 @@ SNOW_API snow_status snow_field_set(snow_grid *grid, snow_field field, const sno
  * @param grid the grid.
  * @param vapour receives the sum over the cells that are not frozen; may be NULL.
  * @param ice receives the sum over the frozen cells; may be NULL.
- * @return ::SNOW_OK; ::SNOW_ERROR_NULL when grid is, or both others are. Cost:
+ * @return ::SNOW_OK; ::SNOW_ERROR_NULL when grid is, or both others are;
+ *         ::SNOW_ERROR_TOO_LARGE where snow_domain_bounds() says so. Cost:
  *         proportional to the domain. The sums are compensated: their error is
  *         about one unit in the last place.
  */
@@ -343,7 +375,8 @@ SNOW_API snow_status snow_mass(const snow_grid *grid, double *vapour, double *ic
  *        and that of any of its images under the twelve symmetries of the
  *        hexagon about the origin, over the images that lie in the interior;
  *        exactly 0 for a symmetric crystal.
- * @return ::SNOW_OK or ::SNOW_ERROR_NULL. Cost: twelve reads a cell.
+ * @return ::SNOW_OK or ::SNOW_ERROR_NULL; ::SNOW_ERROR_TOO_LARGE where
+ *         snow_domain_bounds() says so. Cost: twelve reads a cell.
  */
 SNOW_API snow_status snow_symmetry_defect(const snow_grid *grid, double *defect);
 
@@ -356,7 +389,8 @@ SNOW_API snow_status snow_symmetry_defect(const snow_grid *grid, double *defect)
  *
  * @param grid the grid.
  * @param digest receives it.
- * @return ::SNOW_OK or ::SNOW_ERROR_NULL. Cost: one read a cell.
+ * @return ::SNOW_OK or ::SNOW_ERROR_NULL; ::SNOW_ERROR_TOO_LARGE where
+ *         snow_domain_bounds() says so. Cost: one read a cell.
  */
 SNOW_API snow_status snow_digest(const snow_grid *grid, uint64_t *digest);
 

@@ -51,7 +51,7 @@ typedef enum snow_status {
 
     /** The allocator returned NULL. */
     SNOW_ERROR_NO_MEMORY = 200,
-    /** The grid is too large: a size overflows, or it has about 2^32 cells or more. */
+    /** The grid is too large: for what it is made of, or for the type or the cost of the answer. */
     SNOW_ERROR_TOO_LARGE = 201,
     /** The caller's memory limit would be passed. */
     SNOW_ERROR_MEMORY_LIMIT = 202,

@@ -56,8 +56,8 @@ void snow_domain_number_cells(snow_domain *domain)
     int32_t end = INT32_MIN;
     for (int32_t row = 0; row < domain->rows; row++) {
         snow_run_of_cells *run = &domain->run[row];
-        run->number = domain->cells;
-        domain->cells += (size_t)(run->end - run->first);
+        run->number = (size_t)domain->cells;
+        domain->cells += (uint64_t)(run->end - run->first);
         first = run->first < first ? run->first : first;
         end = run->end > end ? run->end : end;
     }
@@ -127,6 +127,45 @@ snow_status snow_domain_hull(snow_domain *hull, snow_heap *heap, const snow_doma
     }
     snow_domain_number_cells(hull);
     return SNOW_OK;
+}
+
+bool snow_domain_reaches(const snow_hexagon *hexagon)
+{
+    const int64_t limit = INT64_C(1) << 30;
+    return snow_hexagon_is_empty(hexagon) || (hexagon->least_q > -limit && hexagon->greatest_q < limit &&
+                                              hexagon->least_r > -limit && hexagon->greatest_r < limit);
+}
+
+snow_rect snow_domain_rect(const snow_hexagon *hexagon)
+{
+    if (snow_hexagon_is_empty(hexagon))
+        return (snow_rect){0, 0, 0, 0};
+    return (snow_rect){(int32_t)hexagon->least_q, (int32_t)hexagon->least_r,
+                       (int32_t)(hexagon->greatest_q - hexagon->least_q + 1),
+                       (int32_t)(hexagon->greatest_r - hexagon->least_r + 1)};
+}
+
+/* Cells at the upper or lower end of a hexagon that a side cuts off. */
+static uint64_t triangle(int64_t side)
+{
+    uint64_t n = side > 0 ? (uint64_t)side : 0;
+    return n % 2 == 0 ? n / 2 * (n + 1) : (n + 1) / 2 * n;
+}
+
+void snow_domain_follow(snow_domain *domain, const snow_hexagon *crystal)
+{
+    snow_hexagon hexagon = snow_hexagon_is_empty(crystal) ? (snow_hexagon){0, 0, 0, 0, 0, 0} : *crystal;
+    hexagon.least_q--, hexagon.least_r--, hexagon.least_s--;
+    hexagon.greatest_q++, hexagon.greatest_r++, hexagon.greatest_s++;
+    *domain = (snow_domain){.hexagon = hexagon, .too_large = !snow_domain_reaches(&hexagon)};
+    if (domain->too_large)
+        return;
+    domain->bounds = snow_domain_rect(&hexagon);
+    domain->top = domain->bounds.r;
+    domain->rows = domain->bounds.height;
+    domain->cells = (uint64_t)domain->bounds.width * (uint64_t)domain->bounds.height -
+                    triangle(hexagon.least_s - hexagon.least_q - hexagon.least_r) -
+                    triangle(hexagon.greatest_q + hexagon.greatest_r - hexagon.greatest_s);
 }
 
 void snow_domain_end(snow_domain *domain, snow_heap *heap)

@@ -1,9 +1,11 @@
-/* A set of cells without holes: for each row r one run first <= q < end. The
-   cells are numbered without gaps, row by row. */
+/* A set of cells without holes: for each row r one run first <= q < end. It is
+   built once, with a table of the runs and its cells numbered without gaps row
+   by row; or it is a hexagon that follows a crystal, without a table. */
 #ifndef SNOW_BASE_DOMAIN_H
 #define SNOW_BASE_DOMAIN_H
 
 #include "base/heap.h"
+#include "base/hexagon.h"
 
 #include <snowgrowth/grid.h>
 
@@ -20,10 +22,29 @@ typedef struct snow_run_of_cells {
 typedef struct snow_domain {
     int32_t top;  /* the first row */
     int32_t rows; /* at least 1 */
-    size_t cells;
+    uint64_t cells;
     snow_rect bounds;
-    snow_run_of_cells *run; /* run[r - top] */
+    snow_run_of_cells *run; /* run[r - top]; NULL: a hexagon */
+    snow_hexagon hexagon;
+    bool too_large; /* the hexagon reaches too far for 32 bits; the rest is not known */
 } snow_domain;
+
+static inline snow_run_of_cells snow_domain_hexagon_row(const snow_hexagon *hexagon, int64_t r)
+{
+    int64_t first = hexagon->least_s - r;
+    int64_t last = hexagon->greatest_s - r;
+    first = first > hexagon->least_q ? first : hexagon->least_q;
+    last = last < hexagon->greatest_q ? last : hexagon->greatest_q;
+    return (snow_run_of_cells){(int32_t)first, (int32_t)(last + 1), 0};
+}
+
+/* The domain becomes the smallest hexagon that holds the cells of another one
+   and their neighbours; those of the origin, where that is empty. */
+void snow_domain_follow(snow_domain *domain, const snow_hexagon *crystal);
+
+/* Whether each cell lies less than 2^30 from the axes; and the smallest rectangle that holds all of them then. */
+bool snow_domain_reaches(const snow_hexagon *hexagon);
+snow_rect snow_domain_rect(const snow_hexagon *hexagon);
 
 /* Each allocates the runs; on failure nothing is left allocated. */
 snow_status snow_domain_disc(snow_domain *domain, snow_heap *heap, int32_t radius);
@@ -41,17 +62,18 @@ void snow_domain_number_cells(snow_domain *domain);
 uint64_t snow_domain_disc_cells(int32_t radius);
 uint64_t snow_domain_hexagon_cells(int32_t radius);
 
-static inline const snow_run_of_cells *snow_domain_row(const snow_domain *domain, int64_t r)
+static inline snow_run_of_cells snow_domain_row(const snow_domain *domain, int64_t r)
 {
-    static const snow_run_of_cells empty = {0, 0, 0};
     int64_t row = r - domain->top;
-    return row >= 0 && row < domain->rows ? &domain->run[row] : &empty;
+    if (row < 0 || row >= domain->rows)
+        return (snow_run_of_cells){0, 0, 0};
+    return domain->run != NULL ? domain->run[row] : snow_domain_hexagon_row(&domain->hexagon, r);
 }
 
 static inline bool snow_domain_has(const snow_domain *domain, int64_t q, int64_t r)
 {
-    const snow_run_of_cells *run = snow_domain_row(domain, r);
-    return q >= run->first && q < run->end;
+    snow_run_of_cells run = snow_domain_row(domain, r);
+    return q >= run.first && q < run.end;
 }
 
 /* Cell after cell of a domain, less those of another; row by row.
@@ -81,7 +103,7 @@ static inline bool snow_walk_next(snow_walk *walk)
             if (++walk->row < domain->rows)
                 walk->q = domain->run[walk->row].first;
         } else if (walk->without != NULL && snow_domain_has(walk->without, walk->q, r)) {
-            walk->q = snow_domain_row(walk->without, r)->end;
+            walk->q = snow_domain_row(walk->without, r).end;
         } else {
             walk->cell = (snow_cell){walk->q++, r};
             walk->most--;

@@ -5,6 +5,7 @@
 
 #include <snowgrowth/grid.h>
 
+#include <stdbool.h>
 #include <stdint.h>
 
 static inline int64_t snow_hexagon_square(int64_t q, int64_t r)
@@ -25,6 +26,30 @@ static inline int64_t snow_hexagon_distance(int64_t q, int64_t r)
     int64_t c = snow_hexagon_magnitude(q + r);
     int64_t ab = a > b ? a : b;
     return ab > c ? ab : c;
+}
+
+static inline snow_hexagon snow_hexagon_empty(void)
+{
+    return (snow_hexagon){INT64_MAX, INT64_MIN, INT64_MAX, INT64_MIN, INT64_MAX, INT64_MIN};
+}
+
+static inline bool snow_hexagon_is_empty(const snow_hexagon *hexagon)
+{
+    return hexagon->least_q > hexagon->greatest_q;
+}
+
+static inline void snow_hexagon_stretch(int64_t *least, int64_t *greatest, int64_t coordinate)
+{
+    *least = coordinate < *least ? coordinate : *least;
+    *greatest = coordinate > *greatest ? coordinate : *greatest;
+}
+
+/* Makes the hexagon hold a cell. */
+static inline void snow_hexagon_hold(snow_hexagon *hexagon, int64_t q, int64_t r)
+{
+    snow_hexagon_stretch(&hexagon->least_q, &hexagon->greatest_q, q);
+    snow_hexagon_stretch(&hexagon->least_r, &hexagon->greatest_r, r);
+    snow_hexagon_stretch(&hexagon->least_s, &hexagon->greatest_s, q + r);
 }
 
 enum { SNOW_HEXAGON_SYMMETRIES = 12 };

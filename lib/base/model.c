@@ -53,20 +53,30 @@ void snow_census_start(snow_census *census)
 {
     *census = (snow_census){
         .tip_square = -1,
-        .least_q = INT32_MAX,
-        .greatest_q = INT32_MIN,
-        .least_r = INT32_MAX,
-        .greatest_r = INT32_MIN,
+        .hexagon = snow_hexagon_empty(),
     };
 }
 
 void snow_census_add(snow_census *census, int32_t q, int32_t r)
 {
-    int64_t square = snow_hexagon_square(q, r);
+    double square = (double)snow_hexagon_square(q, r);
     census->frozen++;
     census->tip_square = square > census->tip_square ? square : census->tip_square;
-    census->least_q = q < census->least_q ? q : census->least_q;
-    census->greatest_q = q > census->greatest_q ? q : census->greatest_q;
-    census->least_r = r < census->least_r ? r : census->least_r;
-    census->greatest_r = r > census->greatest_r ? r : census->greatest_r;
+    snow_hexagon_hold(&census->hexagon, q, r);
+}
+
+snow_stop_reason snow_crystal_stops(const snow_grid *grid, const snow_stop *stop)
+{
+    const snow_census *census = &grid->census;
+    if (stop->rim && census->rim)
+        return SNOW_STOP_RIM;
+    if (stop->tip_radius > 0 && snow_census_tip(census) >= stop->tip_radius)
+        return SNOW_STOP_RADIUS;
+    if (stop->frozen > 0 && snow_census_frozen(census) >= stop->frozen)
+        return SNOW_STOP_FROZEN;
+    if (stop->still && census->still)
+        return SNOW_STOP_STILL;
+    if (stop->max_steps >= 0 && census->steps >= stop->max_steps)
+        return SNOW_STOP_STEPS;
+    return SNOW_STOP_NONE;
 }

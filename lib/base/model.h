@@ -17,8 +17,9 @@
 typedef struct snow_census {
     int64_t steps;
     uint64_t frozen;
-    int64_t tip_square; /* greatest squared distance from the origin; −1: nothing frozen */
-    int32_t least_q, greatest_q, least_r, greatest_r;
+    uint64_t frozen_high; /* multiples of 2^64 */
+    double tip_square;    /* greatest squared distance from the origin, exact below 2^53; −1: nothing frozen */
+    snow_hexagon hexagon; /* the smallest that holds the frozen cells */
     bool rim;   /* ice is within reach of the rim */
     bool still; /* no cell will freeze again; looked for in step 1 and in each 64th */
 } snow_census;
@@ -32,13 +33,22 @@ static inline bool snow_census_looks(int64_t steps)
 /* Distance of the farthest frozen cell from the origin; 0: nothing frozen. */
 static inline double snow_census_tip(const snow_census *census)
 {
-    return census->tip_square > 0 ? sqrt((double)census->tip_square) : 0;
+    return census->tip_square > 0 ? sqrt(census->tip_square) : 0;
+}
+
+/* The frozen cells; UINT64_MAX stands for more. */
+static inline uint64_t snow_census_frozen(const snow_census *census)
+{
+    return census->frozen_high == 0 ? census->frozen : UINT64_MAX;
 }
 
 void snow_census_start(snow_census *census);
 
 /* Counts a cell that froze; the model itself sets `rim` and `still`. */
 void snow_census_add(snow_census *census, int32_t q, int32_t r);
+
+/* Which of the conditions on the crystal alone holds, if any. */
+snow_stop_reason snow_crystal_stops(const snow_grid *grid, const snow_stop *stop);
 
 /* The operations of a model. Arguments are checked before they are called:
    pointers are not NULL, enumerations known, rectangles in range. Fields are

@@ -18,7 +18,7 @@ const char *snow_strerror(snow_status status)
     case SNOW_ERROR_BUSY: return "a progress callback may not change the grid that calls it";
     case SNOW_ERROR_OUTSIDE: return "the cell lies outside the domain";
     case SNOW_ERROR_NO_MEMORY: return "out of memory";
-    case SNOW_ERROR_TOO_LARGE: return "the grid is too large";
+    case SNOW_ERROR_TOO_LARGE: return "the grid is too large, or the answer is";
     case SNOW_ERROR_MEMORY_LIMIT: return "the memory limit would be passed";
     case SNOW_ERROR_THREADS: return "a thread could not be started";
     case SNOW_ERROR_ISA: return "the instruction set is not available";

@@ -53,6 +53,8 @@ snow_status snow_field_copy(const snow_grid *grid, snow_field field, const snow_
     snow_status status = can_read(grid, field);
     if (status != SNOW_OK)
         return status;
+    if (rect == NULL && grid->domain.too_large)
+        return SNOW_ERROR_TOO_LARGE;
     rect = rect != NULL ? rect : &grid->domain.bounds;
     size_t cells;
     if (!is_sound(rect) || !count_cells(rect, &cells))
@@ -76,6 +78,8 @@ snow_status snow_field_set(snow_grid *grid, snow_field field, const snow_rect *r
         return SNOW_ERROR_ENUM;
     if (grid->busy)
         return SNOW_ERROR_BUSY;
+    if (rect == NULL && grid->domain.too_large)
+        return SNOW_ERROR_TOO_LARGE;
     rect = rect != NULL ? rect : &grid->domain.bounds;
     size_t cells;
     if (!is_sound(rect) || !count_cells(rect, &cells))

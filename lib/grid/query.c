@@ -21,6 +21,8 @@ snow_status snow_frozen(const snow_grid *grid, uint64_t *cells)
 {
     if (grid == NULL || cells == NULL)
         return SNOW_ERROR_NULL;
+    if (grid->census.frozen_high > 0)
+        return SNOW_ERROR_TOO_LARGE;
     *cells = grid->census.frozen;
     return SNOW_OK;
 }
@@ -40,11 +42,18 @@ snow_status snow_frozen_bounds(const snow_grid *grid, snow_rect *bounds)
 {
     if (grid == NULL || bounds == NULL)
         return SNOW_ERROR_NULL;
-    const snow_census *census = &grid->census;
-    *bounds = (snow_rect){0, 0, 0, 0};
-    if (census->frozen > 0)
-        *bounds = (snow_rect){census->least_q, census->least_r, census->greatest_q - census->least_q + 1,
-                              census->greatest_r - census->least_r + 1};
+    const snow_hexagon *hexagon = &grid->census.hexagon;
+    if (!snow_domain_reaches(hexagon))
+        return SNOW_ERROR_TOO_LARGE;
+    *bounds = snow_domain_rect(hexagon);
+    return SNOW_OK;
+}
+
+snow_status snow_frozen_hexagon(const snow_grid *grid, snow_hexagon *hexagon)
+{
+    if (grid == NULL || hexagon == NULL)
+        return SNOW_ERROR_NULL;
+    *hexagon = grid->census.hexagon;
     return SNOW_OK;
 }
 
@@ -52,6 +61,8 @@ snow_status snow_domain_bounds(const snow_grid *grid, snow_rect *bounds)
 {
     if (grid == NULL || bounds == NULL)
         return SNOW_ERROR_NULL;
+    if (grid->domain.too_large)
+        return SNOW_ERROR_TOO_LARGE;
     *bounds = grid->domain.bounds;
     return SNOW_OK;
 }
@@ -60,6 +71,8 @@ snow_status snow_domain_cells(const snow_grid *grid, uint64_t *cells)
 {
     if (grid == NULL || cells == NULL)
         return SNOW_ERROR_NULL;
+    if (grid->domain.too_large)
+        return SNOW_ERROR_TOO_LARGE;
     *cells = grid->domain.cells;
     return SNOW_OK;
 }

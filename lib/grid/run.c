@@ -79,27 +79,10 @@ static SNOW_APART snow_summary summarise(const snow_grid *grid, snow_stop_reason
         .struct_size = sizeof(snow_summary),
         .reason = reason,
         .steps = grid->census.steps,
-        .frozen = grid->census.frozen,
+        .frozen = snow_census_frozen(&grid->census),
         .tip_radius = snow_census_tip(&grid->census),
         .seconds = now() - started,
     };
-}
-
-/* The conditions that depend on the crystal alone. */
-static snow_stop_reason crystal_stops(const snow_grid *grid, const snow_stop *stop)
-{
-    const snow_census *census = &grid->census;
-    if (stop->rim && census->rim)
-        return SNOW_STOP_RIM;
-    if (stop->tip_radius > 0 && snow_census_tip(&grid->census) >= stop->tip_radius)
-        return SNOW_STOP_RADIUS;
-    if (stop->frozen > 0 && census->frozen >= stop->frozen)
-        return SNOW_STOP_FROZEN;
-    if (stop->still && census->still)
-        return SNOW_STOP_STILL;
-    if (stop->max_steps >= 0 && census->steps >= stop->max_steps)
-        return SNOW_STOP_STEPS;
-    return SNOW_STOP_NONE;
 }
 
 /* The next step count after which something other than the crystal may end the run. */
@@ -132,13 +115,13 @@ static bool is_cancelled(snow_grid *grid, const snow_stop *stop, double started,
 static snow_status run(snow_grid *grid, const snow_stop *stop, double started, const snow_floating *floating,
                        snow_stop_reason *reason)
 {
-    for (*reason = crystal_stops(grid, stop); *reason == SNOW_STOP_NONE;) {
+    for (*reason = snow_crystal_stops(grid, stop); *reason == SNOW_STOP_NONE;) {
         snow_status status = advance(grid, next_look(grid, stop), stop);
         if (status != SNOW_OK) {
             *reason = SNOW_STOP_UNSTABLE;
             return status;
         }
-        *reason = crystal_stops(grid, stop);
+        *reason = snow_crystal_stops(grid, stop);
         if (is_cancelled(grid, stop, started, floating) && *reason == SNOW_STOP_NONE)
             *reason = SNOW_STOP_CANCELLED;
         if (*reason == SNOW_STOP_NONE && stop->seconds > 0 && now() - started >= stop->seconds)

@@ -6,10 +6,10 @@ enum { SLICE = 256 };
 
 static void add_row(const snow_grid *grid, int32_t r, snow_digest_state *digest)
 {
-    const snow_run_of_cells *run = snow_domain_row(&grid->domain, r);
+    snow_run_of_cells run = snow_domain_row(&grid->domain, r);
     double values[SLICE];
-    for (int64_t q = run->first; q < run->end; q += SLICE) {
-        size_t count = run->end - q < SLICE ? (size_t)(run->end - q) : SLICE;
+    for (int64_t q = run.first; q < run.end; q += SLICE) {
+        size_t count = run.end - q < SLICE ? (size_t)(run.end - q) : SLICE;
         grid->operations->read(grid, SNOW_FIELD_VALUE, q, r, count, values);
         for (size_t i = 0; i < count; i++)
             snow_digest_add_double(digest, values[i]);
@@ -20,6 +20,8 @@ snow_status snow_digest(const snow_grid *grid, uint64_t *digest)
 {
     if (grid == NULL || digest == NULL)
         return SNOW_ERROR_NULL;
+    if (grid->domain.too_large)
+        return SNOW_ERROR_TOO_LARGE;
     snow_floating floating;
     snow_floating_enter(&floating);
     snow_digest_state state;

@@ -21,8 +21,8 @@ static void add(long_sum *total, double value)
 
 static void add_row(const snow_grid *grid, int32_t r, long_sum *vapour, long_sum *ice)
 {
-    const snow_run_of_cells *run = snow_domain_row(&grid->domain, r);
-    for (int32_t q = run->first; q < run->end; q++) {
+    snow_run_of_cells run = snow_domain_row(&grid->domain, r);
+    for (int32_t q = run.first; q < run.end; q++) {
         double value;
         double frozen;
         grid->operations->read(grid, SNOW_FIELD_VALUE, q, r, 1, &value);
@@ -35,6 +35,8 @@ snow_status snow_mass(const snow_grid *grid, double *vapour, double *ice)
 {
     if (grid == NULL || (vapour == NULL && ice == NULL))
         return SNOW_ERROR_NULL;
+    if (grid->domain.too_large)
+        return SNOW_ERROR_TOO_LARGE;
     snow_floating floating;
     snow_floating_enter(&floating);
     long_sum vapour_sum = {0, 0};

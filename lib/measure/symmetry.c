@@ -29,12 +29,14 @@ snow_status snow_symmetry_defect(const snow_grid *grid, double *defect)
 {
     if (grid == NULL || defect == NULL)
         return SNOW_ERROR_NULL;
+    if (grid->domain.too_large)
+        return SNOW_ERROR_TOO_LARGE;
     snow_floating floating;
     snow_floating_enter(&floating);
     double greatest = 0;
     for (int32_t row = 0; row < grid->domain.rows; row++) {
-        const snow_run_of_cells *run = &grid->domain.run[row];
-        for (int32_t q = run->first; q < run->end; q++)
+        snow_run_of_cells run = snow_domain_row(&grid->domain, grid->domain.top + row);
+        for (int32_t q = run.first; q < run.end; q++)
             greatest = fmax(greatest, defect_of(grid, q, grid->domain.top + row));
     }
     *defect = greatest;

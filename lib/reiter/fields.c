@@ -53,9 +53,9 @@ static double read_inside(const snow_grid *grid, snow_field field, int32_t q, in
 
 void snow_reiter_read(const snow_grid *grid, snow_field field, int64_t q, int64_t r, size_t count, double *values)
 {
-    const snow_run_of_cells *run = snow_domain_row(&grid->domain, r);
+    snow_run_of_cells run = snow_domain_row(&grid->domain, r);
     for (size_t i = 0; i < count; i++, q++)
-        values[i] = q >= run->first && q < run->end ? read_inside(grid, field, (int32_t)q, (int32_t)r)
+        values[i] = q >= run.first && q < run.end ? read_inside(grid, field, (int32_t)q, (int32_t)r)
                                                     : read_outside(grid, field, q, r);
 }
 
@@ -69,11 +69,11 @@ static snow_status visit(snow_grid *grid, const snow_domain *domain, const snow_
     int64_t end_row = (int64_t)rect->r + rect->height;
     end_row = end_row < domain->top + domain->rows ? end_row : domain->top + domain->rows;
     for (int64_t r = first_row; r < end_row; r++) {
-        const snow_run_of_cells *run = snow_domain_row(domain, r);
+        snow_run_of_cells run = snow_domain_row(domain, r);
         const double *row = values + (size_t)(r - rect->r) * (size_t)rect->width;
-        int64_t first = rect->q > run->first ? rect->q : run->first;
+        int64_t first = rect->q > run.first ? rect->q : run.first;
         int64_t end = (int64_t)rect->q + rect->width;
-        end = end < run->end ? end : run->end;
+        end = end < run.end ? end : run.end;
         for (int64_t q = first; q < end; q++) {
             snow_status status = visitor(grid, (int32_t)q, (int32_t)r, row[q - rect->q]);
             if (status != SNOW_OK)
