@@ -26,13 +26,13 @@ static bool is_near_rim(const snow_grid *grid, int32_t q, int32_t r)
 /* Ice advances by one cell in a step. In a rectangle the rows' ends move by half a cell from row to row. */
 static bool may_leave_middle(const snow_grid *grid, int64_t steps)
 {
-    const snow_census *census = &grid->census;
+    const snow_hexagon *ice = &grid->census.hexagon;
     const snow_domain *domain = &grid->domain;
     int64_t margin = 2 * steps + REACH + 1;
-    const snow_run_of_cells *upper = snow_domain_row(domain, census->least_r);
-    const snow_run_of_cells *lower = snow_domain_row(domain, census->greatest_r);
-    return census->least_r - domain->top < margin || domain->top + domain->rows - census->greatest_r < margin ||
-           census->least_q - upper->first < margin || lower->end - census->greatest_q < margin;
+    snow_run_of_cells upper = snow_domain_row(domain, ice->least_r);
+    snow_run_of_cells lower = snow_domain_row(domain, ice->greatest_r);
+    return ice->least_r - domain->top < margin || domain->top + domain->rows - ice->greatest_r < margin ||
+           ice->least_q - upper.first < margin || lower.end - ice->greatest_q < margin;
 }
 
 bool snow_reiter_may_reach_rim(const snow_grid *grid, int64_t steps)
@@ -49,7 +49,7 @@ bool snow_reiter_may_reach_rim(const snow_grid *grid, int64_t steps)
     case SNOW_REITER_RECTANGLE: break;
     }
     if (params->rim == SNOW_REITER_RIM_ROW)
-        return census->least_r - grid->domain.top - steps < params->height / REPORT_FRACTION;
+        return census->hexagon.least_r - grid->domain.top - steps < params->height / REPORT_FRACTION;
     return may_leave_middle(grid, steps);
 }
 

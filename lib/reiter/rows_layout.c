@@ -155,15 +155,15 @@ static void note_ghosts_by_row(const snow_grid *grid, int32_t row, int32_t besid
     int32_t r = part->top + row + beside;
     int32_t first = part->run[row].first - (beside >= 0 ? 1 : 0);
     int32_t end = part->run[row].end + (beside <= 0 ? 1 : 0);
-    const snow_run_of_cells *own = snow_domain_row(part, r);
+    snow_run_of_cells own = snow_domain_row(part, r);
     if (part->run[row].first >= part->run[row].end)
         return;
-    if (own->first >= own->end) {
+    if (own.first >= own.end) {
         note_ghosts(grid, first, end, r, ghosts);
         return;
     }
-    note_ghosts(grid, first, end < own->first ? end : own->first, r, ghosts);
-    note_ghosts(grid, first > own->end ? first : own->end, end, r, ghosts);
+    note_ghosts(grid, first, end < own.first ? end : own.first, r, ghosts);
+    note_ghosts(grid, first > own.end ? first : own.end, end, r, ghosts);
 }
 
 /* Finds each ghost once or several times. */
