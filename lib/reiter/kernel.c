@@ -162,6 +162,27 @@ static inline bool masked_chunk(const reiter_flow *flow, const reiter_segment *s
     return any(flowing);
 }
 
+/* One chunk of which all cells are computed; says whether anything flows. */
+static inline bool full_chunk(const reiter_flow *flow, const reiter_segment *segment, size_t shift, bool tolerates)
+{
+    const element *vapour = flow->vapour;
+    const element *row = vapour + segment->row + shift;
+    const element *above = vapour + segment->above + shift;
+    const element *below = vapour + segment->below + shift;
+    element *next = (element *)flow->next + segment->row + shift;
+    constants with = constants_of(flow);
+    lanes flowing = {0};
+    for (int i = 0; i < REITER_CHUNK; i += LANES) {
+        band_flow band = flow_at(row + i, above + i, below + i, segment->stride, &with);
+        for (int own = 0; own < REITER_BAND; own++) {
+            /* A flow of nothing has no bit set. */
+            flowing |= tolerates ? is_beyond(band.flow[own], with.tolerance) : (lanes)band.flow[own];
+            store_aligned(next + (size_t)own * segment->stride + i, band.here[own] + band.flow[own]);
+        }
+    }
+    return any(flowing);
+}
+
 static void diffuse(const reiter_flow *flow, const reiter_segment *segments, size_t count)
 {
     for (const reiter_segment *segment = segments; segment < segments + count; segment++) {
@@ -172,14 +193,25 @@ static void diffuse(const reiter_flow *flow, const reiter_segment *segments, siz
     }
 }
 
+static inline void look_at_segment(const reiter_flow *flow, const reiter_segment *segment, uint64_t *flowing,
+                                   bool tolerates)
+{
+    bool full = is_full(segment);
+    for (size_t chunk = 0; chunk < segment->chunks; chunk++) {
+        size_t bit = segment->bit + chunk;
+        size_t shift = chunk * REITER_CHUNK;
+        if (full ? full_chunk(flow, segment, shift, tolerates) : masked_chunk(flow, segment, shift))
+            flowing[bit / 64] |= UINT64_C(1) << bit % 64;
+    }
+}
+
 static void diffuse_and_look(const reiter_flow *flow, const reiter_segment *segments, size_t count, uint64_t *flowing)
 {
     for (const reiter_segment *segment = segments; segment < segments + count; segment++) {
-        for (size_t chunk = 0; chunk < segment->chunks; chunk++) {
-            size_t bit = segment->bit + chunk;
-            if (masked_chunk(flow, segment, chunk * REITER_CHUNK))
-                flowing[bit / 64] |= UINT64_C(1) << bit % 64;
-        }
+        if (flow->tolerance > 0)
+            look_at_segment(flow, segment, flowing, true);
+        else
+            look_at_segment(flow, segment, flowing, false);
     }
 }
 
