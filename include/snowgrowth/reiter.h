@@ -135,7 +135,9 @@ typedef struct snow_reiter_params {
      * one step in 64 is such a look. After t steps the vapour is wrong by at most
      * t·(1 + 32·α)·τ as long as the ice is the same, for α <= 2; what is measured is far
      * less (doc/accuracy.md). Bits then depend on `symmetry`, but still on no
-     * instruction set or thread count. Only with the engine ROWS or AUTO.
+     * instruction set or thread count; and a grid that is loaded looks at all of
+     * the plane anew, so that its bits part from those of the one that was saved,
+     * within the same bound. Only with the engine ROWS or AUTO.
      */
     double tolerance;
 } snow_reiter_params;

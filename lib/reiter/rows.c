@@ -226,19 +226,32 @@ static void collect_only(void *argument, size_t index)
         snow_rows_overshoot(grid, &cells->block[index], next_of(cells));
 }
 
+/* Our own threads only where a step takes longer than it takes them to meet. */
+static void for_blocks(snow_grid *grid, snow_task task)
+{
+    enum { LEAST_CHUNKS = 2048 }; /* some 30 µs */
+    const rows *cells = rows_of(grid);
+    if (grid->options.parallel_for != NULL || cells->listed_chunks >= LEAST_CHUNKS) {
+        snow_grid_for(grid, cells->blocks, task, grid);
+        return;
+    }
+    for (size_t i = 0; i < cells->blocks; i++)
+        task(grid, i);
+}
+
 /* Where the field may grow without bound, that is known before anything is changed. */
 static snow_status diffuse_and_collect(snow_grid *grid)
 {
     const rows *cells = rows_of(grid);
     if (!reiter_overshoots(reiter_of(grid))) {
-        snow_grid_for(grid, cells->blocks, step_block, grid);
+        for_blocks(grid, step_block);
         return SNOW_OK;
     }
-    snow_grid_for(grid, cells->blocks, diffuse_and_watch, grid);
+    for_blocks(grid, diffuse_and_watch);
     for (size_t i = 0; i < cells->blocks; i++)
         if (cells->block[i].unstable)
             return SNOW_ERROR_UNSTABLE;
-    snow_grid_for(grid, cells->blocks, collect_only, grid);
+    for_blocks(grid, collect_only);
     return SNOW_OK;
 }
 

@@ -100,6 +100,7 @@ typedef struct rows {
     uint64_t *visited; /* in a pass: holds cells that are receptive */
     reiter_segment *segment;
     size_t segment_room;
+    size_t listed_chunks; /* in the segments, when they were last listed */
     bool stale; /* the segments are not those of `active`, or not in order */
 } rows;
 

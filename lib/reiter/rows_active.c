@@ -180,6 +180,14 @@ static uint32_t list_band(const rows *cells, int32_t band, size_t first_segment)
     return listed;
 }
 
+static size_t count_chunks(const reiter_segment *segments, size_t count)
+{
+    size_t chunks = 0;
+    for (size_t i = 0; i < count; i++)
+        chunks += segments[i].chunks;
+    return chunks;
+}
+
 void snow_rows_list_segments(rows *cells)
 {
     size_t listed = 0;
@@ -190,6 +198,7 @@ void snow_rows_list_segments(rows *cells)
             listed += list_band(cells, band, listed);
         block->segments = listed - block->first_segment;
     }
+    cells->listed_chunks = count_chunks(cells->segment, listed);
     cells->stale = false;
 }
 
