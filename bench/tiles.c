@@ -100,8 +100,12 @@ static void bench_kernel(int64_t tiles_across)
 
 /* ---- crystals ---- */
 
-static void grow(bool folded, uint8_t freezes, int64_t steps, double *seconds, snow_tiles_census *census, uint64_t *tiles,
-                 uint64_t *visits, uint64_t *memory)
+typedef struct crystal {
+    double seconds;
+    uint64_t frozen, tiles, visits, memory;
+} crystal;
+
+static crystal grow(uint8_t freezes, int64_t steps, bool folded)
 {
     snow_heap heap = start_heap();
     snow_tiles *plane;
@@ -109,25 +113,27 @@ static void grow(bool folded, uint8_t freezes, int64_t steps, double *seconds, s
     must(snow_tiles_create(&plane, &heap, &(snow_tiles_plan){.freezes = freezes, .folded = folded}));
     must(snow_tiles_set(plane, 0, 0));
     must(snow_tiles_advance(plane, steps));
-    snow_tiles_count(plane, census);
-    *seconds = seconds_used() - start;
-    *tiles = snow_tiles_number(plane);
-    *visits = snow_tiles_visits(plane);
-    *memory = heap.used;
+    snow_tiles_census census;
+    snow_tiles_count(plane, &census);
+    double seconds = seconds_used() - start;
+    crystal grown = {seconds, census.frozen, snow_tiles_number(plane), snow_tiles_visits(plane), heap.used};
     snow_tiles_destroy(plane);
+    return grown;
 }
 
 static void bench_crystal(uint8_t freezes, int64_t steps, bool folded)
 {
     double seconds[ROUNDS];
-    snow_tiles_census census = {0};
-    uint64_t tiles = 0, visits = 0, memory = 0;
-    for (int round = 0; round < ROUNDS; round++)
-        grow(folded, freezes, steps, &seconds[round], &census, &tiles, &visits, &memory);
+    crystal grown;
+    for (int round = 0; round < ROUNDS; round++) {
+        grown = grow(freezes, steps, folded);
+        seconds[round] = grown.seconds;
+    }
     double median = timing_median(seconds, ROUNDS);
-    printf("  %6" PRId64 " %-6s | %9.4f | %10" PRIu64 " %8" PRIu64 " %9" PRIu64 " | %7.1f %8.1f %9.1f | %7.2f\n", steps,
-           folded ? "yes" : "no", median, census.frozen, tiles, visits, 1e9 * median / (double)visits,
-           1e-9 * TILE_CELLS * (double)visits / median, 1e-6 * (double)census.frozen / median, 1e-6 * (double)memory);
+    double visits = (double)grown.visits;
+    printf("  %6" PRId64 " %-6s | %9.4f | %10" PRIu64 " %8" PRIu64 " %9" PRIu64 " | %8.1f %8.1f %9.1f | %7.2f\n", steps,
+           folded ? "yes" : "no", median, grown.frozen, grown.tiles, grown.visits, 1e9 * median / visits,
+           1e-9 * TILE_CELLS * visits / median, 1e-6 * (double)grown.frozen / median, 1e-6 * (double)grown.memory);
     fflush(stdout);
 }
 

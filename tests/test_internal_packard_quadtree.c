@@ -1,4 +1,4 @@
-/* The quadtree engine against a byte a cell, against what is known of the rules' populations, and with little memory. */
+/* The quadtree engine against a byte a cell, against the known populations of the rules, and with little memory. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -477,6 +477,22 @@ static void stillness_ends_at_the_root(void **state)
     }
 }
 
+static void known_results_are_no_work(void **state)
+{
+    (void)state;
+    scene with;
+    open_seed(&with, rule_of("1"), 0);
+    snow_quadtree_keep(with.tree);
+    uint64_t before = snow_quadtree_work(with.tree);
+    assert_int_equal(SNOW_OK, snow_quadtree_advance(with.tree, 1024));
+    uint64_t after = snow_quadtree_work(with.tree);
+    assert_true(after > before);
+    snow_quadtree_restore(with.tree);
+    assert_int_equal(SNOW_OK, snow_quadtree_advance(with.tree, 1024));
+    assert_int_equal(after, snow_quadtree_work(with.tree));
+    close_scene(&with);
+}
+
 static void what_was_kept_comes_back(void **state)
 {
     (void)state;
@@ -824,6 +840,7 @@ int main(void)
         cmocka_unit_test(steps_add_up),
         cmocka_unit_test(stillness_is_found_by_looking_ahead),
         cmocka_unit_test(stillness_ends_at_the_root),
+        cmocka_unit_test(known_results_are_no_work),
         cmocka_unit_test(what_was_kept_comes_back),
         cmocka_unit_test(regions_are_put_and_copied_at_any_place),
         cmocka_unit_test(the_reach_is_kept),

@@ -130,6 +130,21 @@ static void restriction_wins(void **state)
     check_zones("0101010", zones, 2, plain_both);
 }
 
+/* Only the corners grow, for two steps. */
+static unsigned plain_tips(int64_t step, int q, int r)
+{
+    return step >= 7 && step <= 8 && from_corner(q, r) > 0 ? 1 : 0;
+}
+
+static void an_inverted_zone_is_all_other_cells(void **state)
+{
+    (void)state;
+    snow_packard_zone zone = packard_zone_of(SNOW_PACKARD_RESTRICTION, SNOW_PACKARD_CORNERS, 7, 8);
+    zone.inverted = 1;
+    check_zones("0110000", &zone, 1, plain_tips);
+    check_zones("0101010", &zone, 1, plain_tips);
+}
+
 static int contains_odd(void *context, int32_t q, int32_t r)
 {
     ++*(int *)context;
@@ -284,6 +299,8 @@ static void wrong_zones_are_refused(void **state)
     assert_status(SNOW_ERROR_ENUM, snow_packard_add_zone(grid, &zone));
     zone = sound, zone.shape = (snow_packard_zone_shape)0;
     assert_status(SNOW_ERROR_ENUM, snow_packard_add_zone(grid, &zone));
+    zone = sound, zone.inverted = 2;
+    assert_status(SNOW_ERROR_RANGE, snow_packard_add_zone(grid, &zone));
     zone = sound, zone.half_width = NAN;
     assert_status(SNOW_ERROR_NOT_FINITE, snow_packard_add_zone(grid, &zone));
     zone = sound, zone.rect = (snow_rect){INT32_MAX, 0, 2, 1};
@@ -316,6 +333,7 @@ int main(void)
         cmocka_unit_test(restrictions_hold_from_the_first_step_to_the_last),
         cmocka_unit_test(priorities_hold_from_the_first_step_to_the_last),
         cmocka_unit_test(restriction_wins),
+        cmocka_unit_test(an_inverted_zone_is_all_other_cells),
         cmocka_unit_test(masks_and_predicates_name_cells),
         cmocka_unit_test(sectors_have_the_cells_that_geometry_says),
         cmocka_unit_test(zones_can_be_added_while_the_crystal_grows),

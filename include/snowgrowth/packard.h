@@ -224,6 +224,7 @@ typedef struct snow_packard_zone {
     double half_angle; /**< In degrees, 0 (default: the width is meant) to 30. */
     int32_t inner;     /**< Least distance from the centre; 0 by default. */
     int32_t outer;     /**< Greatest distance from the centre; INT32_MAX (default): no limit. */
+    int32_t inverted;  /**< 1: the zone is all other cells, of the sectors or of the rectangle's; 0 by default. */
 
     snow_rect rect;                 /**< Of ::SNOW_PACKARD_CELLS: where its cells lie; empty by default. */
     const uint8_t *mask;            /**< width * height bytes in row order, copied; not 0: in the zone. NULL by default. */
@@ -254,6 +255,7 @@ SNOW_API void snow_packard_zone_init(snow_packard_zone *zone, size_t struct_size
  *         ::SNOW_ERROR_STRUCT_TAIL, ::SNOW_ERROR_ENUM, ::SNOW_ERROR_BUSY;
  *         ::SNOW_ERROR_UNSUPPORTED for another model;
  *         ::SNOW_ERROR_NOT_FINITE; ::SNOW_ERROR_RECTANGLE;
+ *         ::SNOW_ERROR_RANGE for a flag that is neither 0 nor 1;
  *         ::SNOW_ERROR_PACKARD_ZONE when a width, angle, distance or step is
  *         out of range, the last step comes before the first, or both mask and
  *         contains are given; ::SNOW_ERROR_NO_MEMORY,

@@ -7,6 +7,7 @@
 
 #include <snowgrowth/export.h>
 #include <snowgrowth/grid.h>
+#include <snowgrowth/measure.h>
 #include <snowgrowth/options.h>
 #include <snowgrowth/packard.h>
 #include <snowgrowth/reiter.h>

@@ -65,22 +65,9 @@ static snow_status count(void *cells, snow_census *census)
     return SNOW_OK;
 }
 
-static bool same_count(const quadtree_measures *a, const quadtree_measures *b)
-{
-    return a->population.low == b->population.low && a->population.high == b->population.high;
-}
-
-/* Looks at the next step. */
 static bool is_still(void *cells)
 {
-    quadtree_measures now, next;
-    if (snow_quadtree_measure(cells, &now) != SNOW_OK)
-        return false;
-    snow_quadtree_keep(cells);
-    bool still = snow_quadtree_advance(cells, 1) == SNOW_OK &&
-                 snow_quadtree_measure(cells, &next) == SNOW_OK && same_count(&now, &next);
-    snow_quadtree_restore(cells);
-    return still;
+    return snow_quadtree_is_still(cells);
 }
 
 static void keep(void *cells)
@@ -91,6 +78,11 @@ static void keep(void *cells)
 static void restore(void *cells)
 {
     snow_quadtree_restore(cells);
+}
+
+uint64_t snow_packard_tree_work(const void *cells)
+{
+    return snow_quadtree_work(cells);
 }
 
 void snow_packard_tree_save(void *cells, snow_sink *sink)

@@ -29,6 +29,7 @@ typedef struct packard_zone {
     double half_angle;
     double tangent; /* of the half-angle */
     int64_t inner, outer;
+    bool inverted;
     snow_rect rect;
     uint64_t *cells; /* rows of whole words; NULL: the whole rectangle */
 } packard_zone;
@@ -84,6 +85,11 @@ typedef struct packard {
 
     const packard_engine *engine;
     void *cells;
+    /* How the quadtree got on, for the choice of engine. */
+    bool watched;        /* it has taken steps since it was chosen */
+    bool left_quadtree;  /* it took too much, and is not chosen again */
+    uint64_t nodes;      /* that it had made before the last of these steps */
+    double work_before, work; /* that they and the last ones took, in cells of area */
     bool folded; /* the scene has all symmetries of the hexagon, and the engine may make use of it */
 } packard;
 
@@ -154,7 +160,10 @@ int64_t snow_packard_rim_distance(const snow_packard_params *params);
 /* Whether a frozen cell lies next to one outside the interior. */
 bool snow_packard_is_at_rim(const snow_grid *grid);
 
-/* engine_quadtree.c: what a saved grid holds of a crystal in the quadtree. */
+/* engine_quadtree.c */
+/* Nodes that the quadtree has made so far. */
+uint64_t snow_packard_tree_work(const void *cells);
+/* What a saved grid holds of a crystal in the quadtree. */
 void snow_packard_tree_save(void *cells, snow_sink *sink);
 snow_status snow_packard_tree_load(snow_grid *grid, snow_source *source, void **cells);
 

@@ -200,8 +200,8 @@ static void write_leaf(const quadtree_leaf *leaf, const region *to, uint64_t *bi
 }
 
 /* The pattern with the region's cells in it. */
-static quadtree_ref put_region(snow_quadtree *tree, int level, quadtree_ref ref, quadtree_place middle, const region *from,
-                               const uint64_t *bits)
+static quadtree_ref put_region(snow_quadtree *tree, int level, quadtree_ref ref, quadtree_place middle,
+                               const region *from, const uint64_t *bits)
 {
     if (level == QUADTREE_LEAF_LEVEL) {
         quadtree_leaf leaf = read_leaf(snow_quadtree_cells(tree, ref), from, bits, middle);
@@ -304,6 +304,11 @@ snow_status snow_quadtree_measure(snow_quadtree *tree, quadtree_measures *measur
         return tree->failure;
     *measures = tree->now.measures;
     return SNOW_OK;
+}
+
+uint64_t snow_quadtree_work(const snow_quadtree *tree)
+{
+    return tree->made;
 }
 
 bool snow_quadtree_get(const snow_quadtree *tree, int64_t q, int64_t r)

@@ -67,6 +67,9 @@ snow_status snow_quadtree_measure(snow_quadtree *tree, quadtree_measures *measur
 void snow_quadtree_keep(snow_quadtree *tree);
 void snow_quadtree_restore(snow_quadtree *tree);
 
+/* Nodes and leaves made since the tree was created: what has been done so far, on every machine the same. */
+uint64_t snow_quadtree_work(const snow_quadtree *tree);
+
 /* Writes the crystal, each different part of it once. Needs no memory; some
    results will have to be found again. Several threads may save, copy and get at once. */
 void snow_quadtree_save(snow_quadtree *tree, snow_sink *sink);

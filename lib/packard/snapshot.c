@@ -43,6 +43,7 @@ static void save_zone(const packard_zone *zone, snow_sink *sink)
     snow_sink_double(sink, zone->half_angle);
     snow_sink_u64(sink, (uint64_t)zone->inner);
     snow_sink_u64(sink, (uint64_t)zone->outer);
+    snow_sink_u8(sink, zone->inverted);
     snow_sink_u32(sink, (uint32_t)zone->rect.q);
     snow_sink_u32(sink, (uint32_t)zone->rect.r);
     snow_sink_u32(sink, (uint32_t)zone->rect.width);
@@ -162,6 +163,7 @@ static snow_status load_zone(snow_source *source, snow_grid *grid)
     zone.half_angle = snow_source_double(source);
     int64_t inner = (int64_t)snow_source_u64(source);
     int64_t outer = (int64_t)snow_source_u64(source);
+    zone.inverted = snow_source_u8(source);
     zone.rect.q = (int32_t)snow_source_u32(source);
     zone.rect.r = (int32_t)snow_source_u32(source);
     zone.rect.width = (int32_t)snow_source_u32(source);

@@ -195,7 +195,10 @@ static inline __attribute__((always_inline)) vector look_up_2(unsigned table, ve
     unsigned high = table >> 2;
     vector if_low = look_up_1(low, ones);
     vector if_high = look_up_1(high, ones);
-    return low == high ? if_low : high == 0 ? if_low & ~twos : low == 0 ? if_high & twos : choose(twos, if_high, if_low);
+    return low == high ? if_low
+           : high == 0 ? if_low & ~twos
+           : low == 0  ? if_high & twos
+                       : choose(twos, if_high, if_low);
 }
 
 static inline __attribute__((always_inline)) vector look_up_3(unsigned table, const neighbours *sum)

@@ -217,7 +217,8 @@ typedef struct demands {
     uint64_t priority[SNOW_TILE_SIDE];
 } demands;
 
-static void ask(const snow_tiles *tiles, const snow_tile *tile, snow_tile_mask mask, const void *context, demands *answer)
+static void ask(const snow_tiles *tiles, const snow_tile *tile, snow_tile_mask mask, const void *context,
+                demands *answer)
 {
     memset(answer->allowed, 0xFF, sizeof answer->allowed);
     memset(answer->priority, 0, sizeof answer->priority);

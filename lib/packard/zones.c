@@ -98,6 +98,8 @@ static bool may_meet(const packard_zone *zone, const packard_region *region)
     int64_t end_q = region->q + region->width;
     int64_t end_r = region->r + region->height;
     const snow_rect *rect = &zone->rect;
+    if (zone->inverted)
+        return true;
     if (zone->shape == SNOW_PACKARD_CELLS)
         return region->q < (int64_t)rect->q + rect->width && end_q > rect->q &&
                region->r < (int64_t)rect->r + rect->height && end_r > rect->r;
@@ -130,7 +132,8 @@ unsigned snow_packard_zones_at(const packard *model, int64_t step, int64_t q, in
         const packard_zone *zone = &model->zones[i];
         if (!applies(zone, step))
             continue;
-        if (zone->shape == SNOW_PACKARD_CELLS ? is_in_cells(zone, q, r) : is_in_sector(zone, q, r))
+        bool named = zone->shape == SNOW_PACKARD_CELLS ? is_in_cells(zone, q, r) : is_in_sector(zone, q, r);
+        if (named != zone->inverted)
             demands |= zone->kind == SNOW_PACKARD_RESTRICTION ? PACKARD_RESTRICTED : PACKARD_PREFERRED;
     }
     return demands;
@@ -194,6 +197,8 @@ static snow_status check(const snow_packard_zone *zone)
     if (zone->kind < SNOW_PACKARD_RESTRICTION || zone->kind > SNOW_PACKARD_PRIORITY ||
         zone->shape < SNOW_PACKARD_CORNERS || zone->shape > SNOW_PACKARD_CELLS)
         return SNOW_ERROR_ENUM;
+    if (!snow_is_flag(zone->inverted))
+        return SNOW_ERROR_RANGE;
     if (!isfinite(zone->half_width) || !isfinite(zone->half_angle))
         return SNOW_ERROR_NOT_FINITE;
     if (zone->rect.width < 0 || zone->rect.height < 0 ||
@@ -255,6 +260,7 @@ snow_status snow_packard_zone_read(const snow_packard_zone *zone, snow_heap *hea
         .tangent = tangent_of(zone->half_angle),
         .inner = zone->inner,
         .outer = zone->outer == INT32_MAX ? INT64_MAX : zone->outer,
+        .inverted = zone->inverted != 0,
         .rect = zone->rect,
     };
     return copy_cells(zone, heap, copy);

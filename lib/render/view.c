@@ -55,7 +55,7 @@ snow_status snow_view_read(const snow_view *caller, snow_view *view)
 
     if (status != SNOW_OK)
         return status;
-    if (!within((int32_t)view->palette, SNOW_PALETTE_PAPER, SNOW_PALETTE_AGE) ||
+    if (!within((int32_t)view->palette, SNOW_PALETTE_PAPER, SNOW_PALETTE_PHASE) ||
         !within((int32_t)view->pixel, SNOW_PIXEL_GREY, SNOW_PIXEL_RGBA))
         return SNOW_ERROR_ENUM;
     if (!isfinite(view->scale) || !isfinite(view->centre_x) || !isfinite(view->centre_y))

@@ -71,6 +71,7 @@ static snow_packard_zone random_zone(uint64_t *state)
         zone.centre = (snow_cell){(int32_t)next_below(state, 9) - 4, (int32_t)next_below(state, 9) - 4};
     zone.rect = (snow_rect){(int32_t)next_below(state, 20) - 20, (int32_t)next_below(state, 20) - 20,
                             (int32_t)next_below(state, 60), (int32_t)next_below(state, 60)};
+    zone.inverted = next_below(state, 5) == 0;
     zone.contains = next_below(state, 2) == 0 ? checkered : NULL;
     return zone;
 }
