@@ -45,8 +45,16 @@ void sheet_init(sheet *self)
     *self = (sheet){.panel_size = 320, .threads = 1, .palette = SNOW_PALETTE_PAPER};
 }
 
+static snow_status create_reiter(const panel *self, bool dated, const snow_options *options, snow_grid **grid)
+{
+    snow_reiter_params params = self->params;
+    params.record_freeze_steps = dated;
+    return snow_reiter_create(&params, options, grid);
+}
+
 static void set_defaults(panel *self)
 {
+    self->create = create_reiter;
     snow_reiter_params_init(&self->params, sizeof self->params);
     snow_reiter_conditions_init(&self->conditions, sizeof self->conditions);
     snow_summary_init(&self->summary, sizeof self->summary);
@@ -199,10 +207,9 @@ static snow_status start_panel(void *context, size_t index, const snow_options *
                                snow_grid **grid)
 {
     const work *shared = context;
-    panel *it = &shared->self->panels[index];
+    const panel *it = &shared->self->panels[index];
     *stop = it->stop;
-    it->params.record_freeze_steps = shared->self->palette == SNOW_PALETTE_AGE;
-    return snow_reiter_create(&it->params, options, grid);
+    return it->create(it, palette_shows_age(shared->self->palette), options, grid);
 }
 
 /* What an unstable field leaves is worth drawing, too. */
@@ -281,7 +288,7 @@ static int check_panels(const sheet *self)
 {
     for (int32_t i = 0; i < self->count; i++) {
         snow_grid *grid = NULL;
-        snow_status status = snow_reiter_create(&self->panels[i].params, NULL, &grid);
+        snow_status status = self->panels[i].create(&self->panels[i], false, NULL, &grid);
         snow_destroy(grid);
         if (status != SNOW_OK)
             return complain_status(NULL, status);

@@ -38,7 +38,8 @@ typedef struct snow_grid snow_grid;
 
 /** @brief The models that a grid can follow. */
 typedef enum snow_model {
-    SNOW_MODEL_REITER = 1 /**< Reiter's two-parameter model of 2005; see reiter.h. */
+    SNOW_MODEL_REITER = 1, /**< Reiter's two-parameter model of 2005; see reiter.h. */
+    SNOW_MODEL_PACKARD = 2 /**< Packard's Boolean rules, with zones; see packard.h. */
 } snow_model;
 
 /** @brief A cell in axial coordinates. */

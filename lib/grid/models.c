@@ -1,9 +1,11 @@
 #include "grid/models.h"
 
+#include "packard/model.h"
 #include "reiter/model.h"
 
 static const snow_model_operations *const models[] = {
     &snow_reiter_operations,
+    &snow_packard_operations,
 };
 
 enum { MODELS = sizeof models / sizeof models[0] };

@@ -51,7 +51,7 @@ static int within(int32_t number, int32_t least, int32_t greatest)
 
 static SNOW_APART snow_status check(const snow_view *view)
 {
-    if (!within((int32_t)view->palette, SNOW_PALETTE_PAPER, SNOW_PALETTE_AGE) ||
+    if (!within((int32_t)view->palette, SNOW_PALETTE_PAPER, SNOW_PALETTE_PHASE) ||
         !within((int32_t)view->pixel, SNOW_PIXEL_GREY, SNOW_PIXEL_RGBA))
         return SNOW_ERROR_ENUM;
     if (!isfinite(view->scale) || !isfinite(view->centre_x) || !isfinite(view->centre_y))
