@@ -244,7 +244,7 @@ static void bad_numbers_are_refused(void **state)
 static void unknown_palettes_and_layouts_are_refused(void **state)
 {
     (void)state;
-    static const int unknown[] = {0, -1, 5, INT_MAX, INT_MIN};
+    static const int unknown[] = {0, -1, 6, INT_MAX, INT_MIN};
     snow_grid *grid = lone_cell(0.4);
     for (size_t i = 0; i < COUNT_OF(unknown); i++) {
         snow_view view = default_view();

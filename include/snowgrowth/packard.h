@@ -152,8 +152,8 @@ SNOW_API snow_status snow_packard_rule_text(uint32_t rule, snow_packard_notation
  *
  * Memory: the tiles need about 0.2 bytes for each cell of the region that the
  * crystal has reached, a twelfth of that while the scene has all symmetries of
- * the hexagon, and eight bytes more a cell with freeze steps; the quadtree about
- * 24 bytes for each different square. Both grow as the crystal does: a step can
+ * the hexagon, and four bytes more a cell with freeze steps; the quadtree about
+ * 28 bytes for each different square. Both grow as the crystal does: a step can
  * answer ::SNOW_ERROR_NO_MEMORY, ::SNOW_ERROR_MEMORY_LIMIT or
  * ::SNOW_ERROR_TOO_LARGE; the grid then stands where snow_steps() says, between
  * two steps, and can be asked, saved and continued.
@@ -224,7 +224,7 @@ typedef struct snow_packard_zone {
     double half_angle; /**< In degrees, 0 (default: the width is meant) to 30. */
     int32_t inner;     /**< Least distance from the centre; 0 by default. */
     int32_t outer;     /**< Greatest distance from the centre; INT32_MAX (default): no limit. */
-    int32_t inverted;  /**< 1: the zone is all other cells, of the sectors or of the rectangle's; 0 by default. */
+    int32_t inverted;  /**< 1: the zone is all other cells of the plane; 0 by default. */
 
     snow_rect rect;                 /**< Of ::SNOW_PACKARD_CELLS: where its cells lie; empty by default. */
     const uint8_t *mask;            /**< width * height bytes in row order, copied; not 0: in the zone. NULL by default. */

@@ -37,9 +37,9 @@ snow_packard_params random_packard_scene(uint64_t *state, snow_cell seeds[8])
     params.rule = next_below(state, 128);
     if (params.domain == SNOW_PACKARD_PLANE)
         params.rule &= 0x7E;
-    params.radius = 3 + (int32_t)next_below(state, 40);
-    params.width = 5 + (int32_t)next_below(state, 90);
-    params.height = 5 + (int32_t)next_below(state, 90);
+    params.radius = 4 + (int32_t)next_below(state, 40);
+    params.width = 9 + (int32_t)next_below(state, 90);
+    params.height = 9 + (int32_t)next_below(state, 90);
     params.seed_count = 1 + next_below(state, 8);
     for (size_t i = 0; i < params.seed_count; i++)
         seeds[i] = (snow_cell){(int32_t)next_below(state, 5) - 2, (int32_t)next_below(state, 3) - 1};
