@@ -62,7 +62,7 @@ bool snow_packard_is_symmetric(const snow_grid *grid)
         return false;
     packard_region bounds = snow_packard_bounds(grid);
     const snow_hexagon *hexagon = &grid->census.hexagon;
-    bool centred = bounds.width == bounds.height && hexagon->least_q == -hexagon->greatest_q &&
+    bool centred = bounds.width == bounds.height && hexagon->least_q + hexagon->greatest_q == 0 &&
                    hexagon->least_r == hexagon->least_q && hexagon->least_s == hexagon->least_q;
     if (!snow_packard_zones_are_symmetric(model) || bounds.width == 0 || !centred)
         return false;
