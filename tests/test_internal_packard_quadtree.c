@@ -148,7 +148,9 @@ static void plain_step(plain *cells, uint8_t rule)
         for (int q = 1; q < SPAN - 1; q++) {
             int neighbours = before.frozen[r][q - 1] + before.frozen[r][q + 1] + before.frozen[r - 1][q] +
                              before.frozen[r + 1][q] + before.frozen[r - 1][q + 1] + before.frozen[r + 1][q - 1];
-            cells->frozen[r][q] |= rule >> neighbours & 1;
+            if (rule >> neighbours & 1) {
+                cells->frozen[r][q] = 1;
+            }
         }
     }
 }
