@@ -139,8 +139,10 @@ static snow_status advance(snow_grid *grid, int64_t most, const snow_stop *stop)
 {
     snow_census *census = &grid->census;
     snow_status status = take_steps(grid, most, stop);
-    if (status == SNOW_OK && census->steps % REITER_MERGE_STEPS == 0)
+    if (status == SNOW_OK && census->steps % REITER_MERGE_STEPS == 0) {
         snow_reiter_merge_additions(grid);
+        reiter_of(grid)->engine->settle(grid);
+    }
     return status;
 }
 
