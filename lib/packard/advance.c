@@ -148,6 +148,7 @@ snow_status snow_packard_advance(snow_grid *grid, int64_t most, const snow_stop 
     int64_t same_zones = snow_packard_zones_last(model, step) - (step - 1);
     int64_t steps = safe_steps(grid, lesser(most, same_zones), stop);
     snow_status status = snow_packard_choose(grid, &steps);
+    steps = safe_steps(grid, steps, stop); /* an engine that cannot go back has to look sooner */
     if (status == SNOW_OK)
         status = change_zones(grid);
     if (status != SNOW_OK)
