@@ -37,6 +37,7 @@ typedef struct plan {
 
 /* What the process that grows tells the one that watches it, in shared memory. */
 typedef struct record {
+    plan work;
     uint64_t seed; /* of the scene that is being grown */
     uint64_t scenes[MODELS];
     uint64_t least_left[QUARTERS]; /* bytes that were in memory after a scene, at least */
@@ -139,8 +140,10 @@ static void note_memory(record *shared, double part)
         shared->most_left = left;
 }
 
-static void grow_scenes(const plan *work, record *shared)
+static void grow_scenes(void **state)
 {
+    record *shared = *state;
+    const plan *work = &shared->work;
     double start = now(), before = start;
     for (int64_t i = 0; i < work->scenes && before - start < (double)work->seconds; i++) {
         shared->seed = work->seed + (uint64_t)i;
@@ -161,8 +164,9 @@ static void grow_scenes(const plan *work, record *shared)
     }
 }
 
-static bool report(const plan *work, const record *shared, int how)
+static bool report(const record *shared, int how)
 {
+    const plan *work = &shared->work;
     for (size_t i = 0; i < MODELS; i++)
         printf("%-8s %" PRIu64 " scenes\n", models[i].name, shared->scenes[i]);
     printf("memory   at least %.1f, %.1f, %.1f, %.1f MB left after a scene in the four quarters, at most %.1f MB\n",
@@ -171,6 +175,8 @@ static bool report(const plan *work, const record *shared, int how)
            (double)shared->most_left / MEGABYTE);
     printf("slowest  %.1f s, seed %" PRIu64 "\n", shared->slowest, shared->slowest_seed);
     if (!WIFEXITED(how) || WEXITSTATUS(how) != 0) {
+        if (WIFSIGNALED(how))
+            printf("signal   %d\n", WTERMSIG(how));
         printf("FAILED   %s --model %s --scenes 1 --seed %" PRIu64 "\n", program_name,
                models[model_of(work, shared->seed)].name, shared->seed);
         return false;
@@ -190,16 +196,17 @@ int main(int count, char **arguments)
     record *shared = mmap(NULL, sizeof *shared, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
     if (shared == MAP_FAILED)
         arguments_fail("no shared memory");
+    shared->work = work;
     fflush(NULL);
     pid_t child = fork();
     if (child < 0)
         arguments_fail("no second process");
     if (child == 0) {
-        grow_scenes(&work, shared);
-        exit(0);
+        const struct CMUnitTest scenes[] = {cmocka_unit_test_prestate(grow_scenes, shared)};
+        exit(cmocka_run_group_tests(scenes, NULL, NULL));
     }
     int how = 0;
     if (waitpid(child, &how, 0) != child)
         arguments_fail("the process that grew is lost");
-    return report(&work, shared, how) ? 0 : 1;
+    return report(shared, how) ? 0 : 1;
 }
