@@ -43,7 +43,7 @@ static void choose_scene(uint64_t *random, snow_packard_params *params, crystals
 {
     *params = random_packard_scene(random, seeds);
     if (params->seeds == NULL && one_in(random, 2)) {
-        params->cluster = between(random, 1, 12);
+        params->cluster = between(random, 1, params->domain == SNOW_PACKARD_PLANE ? 12 : 3);
         params->random_seed = next_below(random, UINT32_MAX);
     }
     params->record_freeze_steps = one_in(random, 3);

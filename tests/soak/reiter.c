@@ -39,7 +39,7 @@ static double patchy(void *context, int32_t q, int32_t r)
 
 static void choose_domain(uint64_t *random, snow_reiter_params *params, crystals *all)
 {
-    all->large = one_in(random, 150);
+    all->large = one_in(random, 400);
     int32_t most = all->large ? 500 : one_in(random, 8) ? 110 : 35;
     int32_t least = all->large ? 450 : 1;
     params->domain = (snow_reiter_domain)between(random, SNOW_REITER_DISC, SNOW_REITER_RECTANGLE);
@@ -219,7 +219,7 @@ void soak_reiter(uint64_t *random)
     params.field_context = &patches;
     if (create(random, &params, &all)) {
         compare(random, &all);
-        for (int32_t rounds = between(random, 1, 8); rounds > 0 && !all.unstable; rounds--) {
+        for (int32_t rounds = between(random, 1, all.large ? 3 : 8); rounds > 0 && !all.unstable; rounds--) {
             act(random, &all);
             compare(random, &all);
         }
