@@ -362,8 +362,9 @@ static void the_memory_limit_holds(void **state)
     (void)state;
     for (int engine = SNOW_PACKARD_ENGINE_AUTO; engine <= SNOW_PACKARD_ENGINE_QUADTREE; engine++) {
         snow_options options = default_options();
-        options.memory_limit = 150000;
+        options.memory_limit = 80000;
         snow_packard_params params = packard_scene("0100000");
+        params.cluster = 3;
         params.engine = (snow_packard_engine)engine;
         snow_grid *grid = make_packard(&params, &options);
         snow_status status = SNOW_OK;
