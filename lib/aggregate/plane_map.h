@@ -1,0 +1,122 @@
+/* How far the nearest site lies at which something can happen: what a walker
+   in the plane asks before each jump.
+
+   A site is special when it is filled, an obstacle, or next to one of these.
+   The map answers with a class of exits.h: the whole region of that class round
+   the site holds no special site; 0 says that the site itself is special. It
+   knows, from near to far:
+   - for each site whether the nearest special site is at distance 0, 1, 2 or
+     more: two bits a site, a word for a block of 4 x 4 sites, a cache line (a
+     "line") for 16 x 16 sites near which there is one;
+   - for each block how many blocks away the nearest one with a special site is,
+     up to 8: a byte a block, in "pages" of 64 x 64 sites near which there is one;
+   - the same for tiles of 64 x 64 sites, up to 15, where there is no page;
+   - the same for squares of 16 x 16 tiles, up to 15.
+   Where blocks of b sites are d blocks apart, (d - 1) b sites are free between
+   their nearest sites. The map is a function of the set of special sites: the
+   order in which they came does not show. */
+#ifndef SNOW_AGGREGATE_PLANE_MAP_H
+#define SNOW_AGGREGATE_PLANE_MAP_H
+
+#include "aggregate/exits.h"
+#include "aggregate/matter.h"
+#include "aggregate/pool.h"
+
+typedef struct snow_plane_page {
+    uint8_t near[256];
+    uint32_t line[16]; /* 0: nothing is near */
+    uint32_t holds_special;
+    uint32_t unused[15];
+} snow_plane_page;
+
+/* Which sites of a line are filled and which are obstacles: bits, a word a block. */
+typedef struct snow_plane_matter {
+    uint16_t filled[16];
+    uint16_t obstacle[16];
+} snow_plane_matter;
+
+/* The sites that the map covers: whole squares of tiles. */
+typedef struct snow_plane_box {
+    int32_t x, y;
+    uint32_t columns, rows;
+} snow_plane_box;
+
+typedef struct snow_plane_map {
+    snow_plane_box box;
+    uintptr_t *tile; /* up to 16: the distance; else the address of a page */
+    uint8_t *square;
+    uint8_t tile_class[17];
+    uint8_t square_class[17];
+    snow_pool pages;
+    snow_pool lines;
+    snow_pool matter; /* one for each line, if wanted */
+    bool keeps_matter;
+    snow_aggregate_lattice lattice;
+    uint32_t print[16][9]; /* what a filled site does to the words of the blocks round it, by its place in its block */
+} snow_plane_map;
+
+snow_status snow_plane_map_start(snow_plane_map *map, snow_heap *heap, const snow_exits *exits, bool keeps_matter,
+                                 snow_plane_box box);
+void snow_plane_map_end(snow_plane_map *map, snow_heap *heap);
+
+/* Covers another box, which holds the old one. */
+snow_status snow_plane_map_widen(snow_plane_map *map, snow_heap *heap, snow_plane_box box);
+
+/* Room for one more filled site, or obstacle: then snow_plane_map_add() cannot fail. */
+snow_status snow_plane_map_reserve(snow_plane_map *map, snow_heap *heap);
+void snow_plane_map_add(snow_plane_map *map, int32_t x, int32_t y, bool obstacle);
+
+static inline bool snow_plane_map_has(const snow_plane_map *map, uint32_t column, uint32_t row)
+{
+    return column < map->box.columns && row < map->box.rows;
+}
+
+/* Where tiles have no page. */
+static inline int snow_plane_map_look_far(const snow_plane_map *map, uintptr_t distance, uint32_t column, uint32_t row)
+{
+    if (distance < 16)
+        return map->tile_class[distance];
+    return map->square_class[map->square[(size_t)(row / 16) * (map->box.columns / 16) + column / 16]];
+}
+
+/* 0: special; else a class; SNOW_MAP_BEYOND. */
+static inline int snow_plane_map_look(const snow_plane_map *map, int32_t x, int32_t y)
+{
+    uint32_t u = (uint32_t)x - (uint32_t)map->box.x;
+    uint32_t v = (uint32_t)y - (uint32_t)map->box.y;
+    uint32_t column = u / 64;
+    uint32_t row = v / 64;
+    if (!snow_plane_map_has(map, column, row))
+        return SNOW_MAP_BEYOND;
+    uintptr_t entry = map->tile[(size_t)row * map->box.columns + column];
+    if (entry <= 16)
+        return snow_plane_map_look_far(map, entry, column, row);
+    const snow_plane_page *page = (const snow_plane_page *)entry;
+    uint32_t i = u / 4 % 16;
+    uint32_t j = v / 4 % 16;
+    int near = page->near[j * 16 + i];
+    if (near >= 2)
+        return near + 2;
+    const uint32_t *line = snow_pool_item(&map->lines, page->line[j / 4 * 4 + i / 4]);
+    uint32_t word = line[j % 4 * 4 + i % 4] >> (v % 4 * 4 + u % 4);
+    return 3 - (int)((word >> 15 & 2) | (word & 1));
+}
+
+/* What is on a site; only where matter is kept. */
+static inline int snow_plane_map_matter(const snow_plane_map *map, int32_t x, int32_t y)
+{
+    uint32_t u = (uint32_t)x - (uint32_t)map->box.x;
+    uint32_t v = (uint32_t)y - (uint32_t)map->box.y;
+    if (!snow_plane_map_has(map, u / 64, v / 64))
+        return 0;
+    uintptr_t entry = map->tile[(size_t)(v / 64) * map->box.columns + u / 64];
+    if (entry <= 16)
+        return 0;
+    const snow_plane_page *page = (const snow_plane_page *)entry;
+    const snow_plane_matter *matter = snow_pool_item(&map->matter, page->line[v / 16 % 4 * 4 + u / 16 % 4]);
+    uint32_t block = v / 4 % 4 * 4 + u / 4 % 4;
+    uint32_t bit = v % 4 * 4 + u % 4;
+    return (matter->filled[block] >> bit & 1) | (matter->obstacle[block] >> bit & 1) << 1;
+}
+
+#endif
