@@ -1,5 +1,5 @@
 /* The numbers of one walker of the jump engine: its own Philox stream, computed
-   many blocks at a time, so that compilers can do it in vectors. */
+   four blocks at a time, in vectors, while the numbers before are used. */
 #ifndef SNOW_AGGREGATE_DRAWS_H
 #define SNOW_AGGREGATE_DRAWS_H
 
@@ -7,31 +7,30 @@
 
 #include <stdint.h>
 
-enum { SNOW_DRAWS_BLOCKS = 16, SNOW_DRAWS_NUMBERS = 2 * SNOW_DRAWS_BLOCKS };
+enum { SNOW_DRAWS_HALF = 8 };
 
 typedef struct snow_draws {
-    uint64_t number[SNOW_DRAWS_NUMBERS];
+    uint64_t number[2 * SNOW_DRAWS_HALF];
     uint32_t next;
     uint32_t block; /* counter of the first block to come */
     uint64_t key;
     uint64_t walker;
 } snow_draws;
 
-static inline void snow_draws_start(snow_draws *draws, uint64_t key, uint64_t walker)
-{
-    draws->next = SNOW_DRAWS_NUMBERS;
-    draws->block = 0;
-    draws->key = key;
-    draws->walker = walker;
-}
+/* The first numbers of a stream. */
+void snow_draws_start(snow_draws *draws, uint64_t key, uint64_t walker);
 
-void snow_draws_refill(snow_draws *draws);
+/* The next eight numbers, in place of those from `first` on. */
+void snow_draws_refill(snow_draws *draws, uint32_t first);
 
 static inline uint64_t snow_draws_next(snow_draws *draws)
 {
-    if (draws->next == SNOW_DRAWS_NUMBERS)
-        snow_draws_refill(draws);
-    return draws->number[draws->next++];
+    uint32_t here = draws->next;
+    uint64_t number = draws->number[here];
+    draws->next = (here + 1) % (2 * SNOW_DRAWS_HALF);
+    if (draws->next % SNOW_DRAWS_HALF == 0)
+        snow_draws_refill(draws, draws->next ^ SNOW_DRAWS_HALF);
+    return number;
 }
 
 /* Uniform in 0 … count − 1, each as likely as the others to count/2^64. */

@@ -1,178 +1,275 @@
 #include "aggregate/exits.h"
 
+#include "aggregate/alias.h"
+
 #include <stddef.h>
 
-/* The radii. The small ones are those that the map of clearances gives
-   (clearance.h); of the large ones few are enough, and stay in the cache. */
-static const int32_t radii_square[] = {1,  2,  3,   5,   9,   13,  17,  21,   25,   29,   33,
-                                       65, 129, 193, 257, 385, 513, 769, 1025, 2049, 4097, 8193};
-static const int32_t radii_hexagonal[] = {1, 2, 3, 5, 9, 13, 17, 21, 25, 29, 33, 65, 129};
-static const int32_t radii_cubic[] = {1, 2, 3, 5, 9, 13, 17, 33, 49, 65, 129, 256};
+/* The small radii are those that the maps give; of the large ones few are
+   enough, and stay in the cache. */
+static const int32_t radii_square[] = {1,  2,  3,  5,   9,   13,  17,  21,  25,  29,   33,   49,
+                                       65, 97, 129, 193, 257, 385, 513, 769, 1025, 2049, 4097, 8193};
+static const int32_t radii_hexagonal[] = {1, 2, 3, 5, 9, 13, 17, 21, 25, 29, 33, 49, 65, 97, 129};
+static const int32_t radii_cubic[] = {1, 2, 3, 5, 9, 13, 17, 33, 49, 65, 97, 129, 193, 256};
+/* Hexagonal: regions that are left through circles. */
+static const int32_t radii_of_circles[] = {257, 385, 513, 769, 1025, 2049, 4097, 8193};
+
+enum { MOST_STEPS = 512 }; /* columns of a small table */
 
 #define COUNT_OF(array) ((int)(sizeof(array) / sizeof(array)[0]))
 
-static int32_t columns_for(int64_t outcomes)
-{
-    int32_t columns = 1;
-    while (columns < outcomes)
-        columns *= 2;
-    return columns;
-}
+/* The laws of one lattice. */
+typedef struct catalogue {
+    const int32_t *radius;
+    int count;
+} catalogue;
 
-static int32_t outcomes_of(snow_aggregate_lattice lattice, int32_t radius)
+static catalogue catalogue_of(snow_aggregate_lattice lattice)
 {
-    return lattice == SNOW_AGGREGATE_CUBIC ? radius * (radius + 1) / 2 : radius;
-}
-
-/* What the columns are cut from while a table is made. */
-typedef struct bench {
-    double *weight;
-    uint32_t *queue; /* columns that lack from the front, those that have too much from the back */
-} bench;
-
-static uint16_t value_of(snow_aggregate_lattice lattice, int32_t outcome, int32_t a)
-{
-    return (uint16_t)(lattice == SNOW_AGGREGATE_CUBIC ? a * 256 + outcome - a * (a + 1) / 2 : outcome);
-}
-
-/* M. D. Vose, IEEE Trans. Softw. Eng. 17 (1991) 972: columns of equal weight,
-   each with at most two outcomes. */
-static void cut_columns(bench *work, snow_exit *exit, int32_t columns)
-{
-    int32_t lacking = 0;
-    int32_t rich = columns;
-    for (int32_t i = 0; i < columns; i++) {
-        if (work->weight[i] < 1)
-            work->queue[lacking++] = (uint32_t)i;
-        else
-            work->queue[--rich] = (uint32_t)i;
-        exit[i].threshold = UINT32_MAX;
-        exit[i].other = exit[i].own;
-    }
-    while (lacking > 0 && rich < columns) {
-        uint32_t poor = work->queue[--lacking];
-        uint32_t giver = work->queue[rich];
-        exit[poor].threshold = (uint32_t)(work->weight[poor] * 0x1p32);
-        exit[poor].other = exit[giver].own;
-        work->weight[giver] -= 1 - work->weight[poor];
-        if (work->weight[giver] < 1) {
-            work->queue[lacking++] = giver;
-            rich++;
-        }
-    }
-}
-
-/* Weights of the columns: an outcome's chance times the number of sites that it stands for. */
-static void weigh_plane(double *weight, int32_t radius, int32_t columns, double mirrored)
-{
-    double total = 0;
-    for (int32_t x = 1; x < radius; x++)
-        weight[x] *= mirrored;
-    for (int32_t x = 0; x < radius; x++)
-        total += weight[x];
-    for (int32_t x = 0; x < columns; x++)
-        weight[x] = x < radius ? weight[x] * columns / total : 0;
-}
-
-static void weigh_space(double *weight, int32_t radius, int32_t columns)
-{
-    double total = 0;
-    for (int32_t a = 0, i = 0; a < radius; a++) {
-        for (int32_t b = 0; b <= a; b++, i++) {
-            weight[i] *= a == 0 ? 1 : b == 0 || b == a ? 4 : 8;
-            total += weight[i];
-        }
-    }
-    int32_t outcomes = outcomes_of(SNOW_AGGREGATE_CUBIC, radius);
-    for (int32_t i = 0; i < columns; i++)
-        weight[i] = i < outcomes ? weight[i] * columns / total : 0;
-}
-
-static snow_status make_table(snow_aggregate_lattice lattice, int32_t radius, bench *work, snow_exit *exit,
-                              snow_heap *heap)
-{
-    int32_t columns = columns_for(outcomes_of(lattice, radius));
-    snow_status status = SNOW_OK;
     if (lattice == SNOW_AGGREGATE_SQUARE)
-        snow_exits_square(radius, work->weight);
-    else if (lattice == SNOW_AGGREGATE_HEXAGONAL)
-        status = snow_exits_hexagonal(radius, work->weight, heap);
-    else
-        status = snow_exits_cubic(radius, work->weight, heap);
-    if (status != SNOW_OK)
-        return status;
+        return (catalogue){radii_square, COUNT_OF(radii_square)};
+    if (lattice == SNOW_AGGREGATE_HEXAGONAL)
+        return (catalogue){radii_hexagonal, COUNT_OF(radii_hexagonal)};
+    return (catalogue){radii_cubic, COUNT_OF(radii_cubic)};
+}
+
+/* Sites of one side that symmetry tells apart. */
+static uint32_t outcomes_of(snow_aggregate_lattice lattice, int32_t radius)
+{
+    uint32_t r = (uint32_t)radius;
+    return lattice == SNOW_AGGREGATE_CUBIC ? r * (r + 1) / 2 : r;
+}
+
+/* Sites of all sides. */
+static uint32_t sites_of(snow_aggregate_lattice lattice, int32_t radius)
+{
+    uint32_t side = 2 * (uint32_t)radius - 1;
+    if (lattice == SNOW_AGGREGATE_SQUARE)
+        return 4 * side;
+    return 6 * (lattice == SNOW_AGGREGATE_HEXAGONAL ? (uint32_t)radius : side * side);
+}
+
+static bool is_small(snow_aggregate_lattice lattice, int32_t radius)
+{
+    return snow_alias_columns(sites_of(lattice, radius)) <= MOST_STEPS;
+}
+
+static snow_status law_of(snow_aggregate_lattice lattice, int32_t radius, double *chance, snow_heap *heap)
+{
+    if (lattice == SNOW_AGGREGATE_HEXAGONAL)
+        return snow_exits_hexagonal(radius, chance, heap);
     if (lattice == SNOW_AGGREGATE_CUBIC)
-        weigh_space(work->weight, radius, columns);
-    else
-        weigh_plane(work->weight, radius, columns, lattice == SNOW_AGGREGATE_SQUARE ? 2 : 1);
-    for (int32_t i = 0, a = 0; i < columns; i++) {
-        while ((a + 1) * (a + 2) / 2 <= i)
-            a++;
-        exit[i].own = value_of(lattice, i, a);
-    }
-    cut_columns(work, exit, columns);
+        return snow_exits_cubic(radius, chance, heap);
+    snow_exits_square(radius, chance);
     return SNOW_OK;
 }
 
-static snow_status make_tables(snow_exits *exits, const int32_t *radii, int count, snow_heap *heap)
+/* The way to the site at offsets a and b of a side. */
+static snow_exit_step step_to(snow_aggregate_lattice lattice, int32_t radius, int side, int32_t a, int32_t b)
 {
-    int32_t total = 0;
-    for (int i = 0; i < count; i++)
-        total += columns_for(outcomes_of(exits->lattice, radii[i]));
-    int32_t most = columns_for(outcomes_of(exits->lattice, radii[count - 1]));
-    bench work = {snow_heap_get_raw(heap, (size_t)most, sizeof *work.weight),
-                  snow_heap_get_raw(heap, (size_t)most, sizeof *work.queue)};
-    exits->storage = snow_heap_get_raw(heap, (size_t)total, sizeof *exits->storage);
-    snow_status status = work.weight == NULL || work.queue == NULL || exits->storage == NULL ? heap->refusal : SNOW_OK;
-    snow_exit *exit = exits->storage;
-    for (int i = 0; i < count && status == SNOW_OK; i++) {
-        int32_t columns = columns_for(outcomes_of(exits->lattice, radii[i]));
-        exits->table[i + 1] = (snow_exit_table){exit, (uint32_t)columns - 1, radii[i]};
-        status = make_table(exits->lattice, radii[i], &work, exit, heap);
-        exit += columns;
+    static const int corner[6][2] = {{1, 0}, {0, 1}, {-1, 1}, {-1, 0}, {0, -1}, {1, -1}};
+    int32_t way[3] = {0, 0, 0};
+    if (lattice == SNOW_AGGREGATE_HEXAGONAL) {
+        const int *from = corner[side];
+        const int *along = corner[(side + 2) % 6];
+        way[0] = radius * from[0] + a * along[0];
+        way[1] = radius * from[1] + a * along[1];
+    } else {
+        int axis = side / 2;
+        way[axis] = side % 2 == 0 ? radius : -radius;
+        way[lattice == SNOW_AGGREGATE_SQUARE ? 1 - axis : (axis + 1) % 3] = a;
+        if (lattice == SNOW_AGGREGATE_CUBIC)
+            way[(axis + 2) % 3] = b;
     }
-    exits->classes = count + 1;
-    snow_heap_put(heap, work.queue);
-    snow_heap_put(heap, work.weight);
+    return (snow_exit_step){.own = {(int8_t)way[0], (int8_t)way[1], (int8_t)way[2]}};
+}
+
+static int32_t magnitude(int32_t x)
+{
+    return x < 0 ? -x : x;
+}
+
+static double chance_at(snow_aggregate_lattice lattice, const double *chance, int32_t a, int32_t b)
+{
+    if (lattice == SNOW_AGGREGATE_HEXAGONAL)
+        return chance[a];
+    int32_t major = magnitude(a) > magnitude(b) ? magnitude(a) : magnitude(b);
+    int32_t minor = magnitude(a) + magnitude(b) - major;
+    return lattice == SNOW_AGGREGATE_SQUARE ? chance[major] : chance[major * (major + 1) / 2 + minor];
+}
+
+/* Every site, and its chance into `weight`. */
+static uint32_t list_sites(snow_aggregate_lattice lattice, int32_t radius, const double *chance, double *weight,
+                           snow_exit_step *step)
+{
+    bool is_hexagonal = lattice == SNOW_AGGREGATE_HEXAGONAL;
+    int32_t least_a = is_hexagonal ? 0 : 1 - radius;
+    int32_t least_b = lattice == SNOW_AGGREGATE_CUBIC ? 1 - radius : 0;
+    uint32_t count = 0;
+    for (int side = 0; side < (lattice == SNOW_AGGREGATE_SQUARE ? 4 : 6); side++) {
+        for (int32_t a = least_a; a < radius; a++) {
+            for (int32_t b = least_b; b <= -least_b; b++) {
+                weight[count] = chance_at(lattice, chance, a, b);
+                step[count++] = step_to(lattice, radius, side, a, b);
+            }
+        }
+    }
+    return count;
+}
+
+static void make_steps(snow_aggregate_lattice lattice, int32_t radius, const double *chance, snow_alias *alias,
+                       snow_exit_step *step)
+{
+    uint32_t outcomes = list_sites(lattice, radius, chance, alias->weight, step);
+    uint32_t columns = snow_alias_columns(outcomes);
+    snow_alias_cut(alias, outcomes);
+    for (uint32_t i = 0; i < columns; i++) {
+        const snow_exit_step *other = &step[alias->other[i]];
+        step[i].threshold = alias->threshold[i];
+        for (int axis = 0; axis < 3; axis++)
+            step[i].other[axis] = other->own[axis];
+    }
+}
+
+/* How many sites of a side an outcome stands for: its images under the mirrors that the walk draws. */
+static double images(snow_aggregate_lattice lattice, int32_t a, int32_t b)
+{
+    if (lattice == SNOW_AGGREGATE_HEXAGONAL)
+        return 1;
+    if (lattice == SNOW_AGGREGATE_SQUARE)
+        return a == 0 ? 1 : 2;
+    return a == 0 ? 1 : b == 0 || b == a ? 4 : 8;
+}
+
+static void make_exits(snow_aggregate_lattice lattice, int32_t radius, const double *chance, snow_alias *alias,
+                       snow_exit *exit)
+{
+    bool is_cubic = lattice == SNOW_AGGREGATE_CUBIC;
+    uint32_t outcomes = 0;
+    for (int32_t a = 0; a < radius; a++) {
+        for (int32_t b = 0; b <= (is_cubic ? a : 0); b++) {
+            alias->weight[outcomes] = chance[outcomes] * images(lattice, a, b);
+            exit[outcomes++].own = (uint16_t)(is_cubic ? 256 * a + b : a);
+        }
+    }
+    snow_alias_cut(alias, outcomes);
+    uint32_t columns = snow_alias_columns(outcomes);
+    for (uint32_t i = 0; i < columns; i++) {
+        exit[i].threshold = alias->threshold[i];
+        exit[i].other = exit[alias->other[i]].own;
+    }
+}
+
+static snow_status make_room(snow_exits *exits, snow_heap *heap, catalogue laws)
+{
+    uint32_t exit_columns = 0;
+    uint32_t step_columns = 0;
+    for (int i = 0; i < laws.count; i++) {
+        exit_columns += snow_alias_columns(outcomes_of(exits->lattice, laws.radius[i]));
+        if (is_small(exits->lattice, laws.radius[i]))
+            step_columns += snow_alias_columns(sites_of(exits->lattice, laws.radius[i]));
+    }
+    exits->exit = snow_heap_get(heap, exit_columns, sizeof *exits->exit);
+    exits->step = snow_heap_get(heap, step_columns, sizeof *exits->step);
+    return exits->exit == NULL || exits->step == NULL ? heap->refusal : SNOW_OK;
+}
+
+static snow_status make_tables(snow_exits *exits, snow_heap *heap, catalogue laws, double *chance, snow_alias *alias)
+{
+    snow_aggregate_lattice lattice = exits->lattice;
+    snow_exit *exit = exits->exit;
+    snow_exit_step *step = exits->step;
+    for (int i = 0; i < laws.count; i++) {
+        int32_t radius = laws.radius[i];
+        snow_status status = law_of(lattice, radius, chance, heap);
+        if (status != SNOW_OK)
+            return status;
+        uint32_t columns = snow_alias_columns(outcomes_of(lattice, radius));
+        snow_exit_table *table = &exits->table[++exits->classes];
+        *table = (snow_exit_table){.exit = exit, .exit_mask = columns - 1, .radius = radius};
+        make_exits(lattice, radius, chance, alias, exit);
+        exit += columns;
+        if (!is_small(lattice, radius))
+            continue;
+        columns = snow_alias_columns(sites_of(lattice, radius));
+        table->step = step;
+        table->step_mask = columns - 1;
+        make_steps(lattice, radius, chance, alias, step);
+        step += columns;
+        exits->small = exits->classes;
+    }
+    exits->classes++;
+    return SNOW_OK;
+}
+
+static snow_status make_all(snow_exits *exits, snow_heap *heap)
+{
+    catalogue laws = catalogue_of(exits->lattice);
+    uint32_t most = snow_alias_columns(outcomes_of(exits->lattice, laws.radius[laws.count - 1]));
+    most = most > MOST_STEPS ? most : MOST_STEPS;
+    snow_alias alias;
+    snow_status status = snow_alias_start(&alias, heap, most);
+    if (status != SNOW_OK)
+        return status;
+    double *chance = snow_heap_get_raw(heap, most, sizeof *chance);
+    status = chance == NULL ? heap->refusal : make_room(exits, heap, laws);
+    if (status == SNOW_OK)
+        status = make_tables(exits, heap, laws, chance, &alias);
+    snow_heap_put(heap, chance);
+    snow_alias_end(&alias, heap);
     return status;
 }
 
-/* Hexagonal: from here on circles are left; see flight.c. */
-static const int32_t radii_of_circles[] = {385, 513, 769, 1025, 2049, 4097, 8193};
-
-static void add_circles(snow_exits *exits)
+static void sort_octaves(snow_exits *exits)
 {
-    for (int i = 0; i < COUNT_OF(radii_of_circles); i++)
-        exits->table[exits->classes++] = (snow_exit_table){NULL, 0, radii_of_circles[i]};
+    for (int octave = 0; octave < SNOW_EXIT_OCTAVES; octave++) {
+        int class = exits->classes - 1;
+        while (exits->table[class].radius > 1 << octave)
+            class--;
+        exits->class_of_octave[octave] = (uint8_t)class;
+    }
 }
 
 snow_status snow_exits_start(snow_exits *exits, snow_heap *heap, snow_aggregate_lattice lattice)
 {
     *exits = (snow_exits){.lattice = lattice};
-    snow_status status;
-    if (lattice == SNOW_AGGREGATE_SQUARE)
-        status = make_tables(exits, radii_square, COUNT_OF(radii_square), heap);
-    else if (lattice == SNOW_AGGREGATE_HEXAGONAL)
-        status = make_tables(exits, radii_hexagonal, COUNT_OF(radii_hexagonal), heap);
-    else
-        status = make_tables(exits, radii_cubic, COUNT_OF(radii_cubic), heap);
-    if (status != SNOW_OK)
+    snow_status status = make_all(exits, heap);
+    if (status != SNOW_OK) {
         snow_exits_end(exits, heap);
-    else if (lattice == SNOW_AGGREGATE_HEXAGONAL)
-        add_circles(exits);
-    return status;
+        return status;
+    }
+    if (lattice == SNOW_AGGREGATE_HEXAGONAL)
+        for (int i = 0; i < COUNT_OF(radii_of_circles); i++)
+            exits->table[exits->classes++] = (snow_exit_table){.radius = radii_of_circles[i]};
+    sort_octaves(exits);
+    return SNOW_OK;
 }
 
 void snow_exits_end(snow_exits *exits, snow_heap *heap)
 {
-    snow_heap_put(heap, exits->storage);
-    exits->storage = NULL;
+    snow_heap_put(heap, exits->step);
+    snow_heap_put(heap, exits->exit);
+    exits->step = NULL;
+    exits->exit = NULL;
+}
+
+static int octave_of(int64_t radius)
+{
+#if defined(__GNUC__)
+    return 63 - __builtin_clzll((unsigned long long)radius);
+#else
+    int octave = 0;
+    while (radius >>= 1)
+        octave++;
+    return octave;
+#endif
 }
 
 int snow_exits_class(const snow_exits *exits, int64_t radius)
 {
-    int class = exits->classes - 1;
-    while (class > 1 && exits->table[class].radius > radius)
-        class--;
+    enum { LAST = SNOW_EXIT_OCTAVES - 1 };
+    int octave = octave_of(radius);
+    int class = exits->class_of_octave[octave < LAST ? octave : LAST];
+    while (class + 1 < exits->classes && exits->table[class + 1].radius <= radius)
+        class++;
     return class;
 }

@@ -71,24 +71,22 @@ static void fill(const band *matrix, int32_t radius)
     }
 }
 
-/* L below the diagonal, D on it. */
-static void factor(const band *matrix, int32_t count)
+/* L below the diagonal, D on it, a column at a time. */
+static void factor(const band *matrix, int32_t count, double *column)
 {
-    for (int32_t i = 0; i < count; i++) {
-        double *row = row_of(matrix, i);
-        int32_t first = i > matrix->width ? i - matrix->width : 0;
-        for (int32_t j = first; j < i; j++) {
-            const double *other = row_of(matrix, j);
-            int32_t start = j - matrix->width > first ? j - matrix->width : first;
-            double sum = row[j];
-            for (int32_t k = start; k < j; k++)
-                sum -= row[k] * other[k];
-            row[j] = sum;
-        }
-        for (int32_t j = first; j < i; j++) {
-            double scaled = row[j] / row_of(matrix, j)[j];
-            row[i] -= scaled * row[j];
+    for (int32_t j = 0; j < count; j++) {
+        int32_t last = j + matrix->width < count ? j + matrix->width : count - 1;
+        double pivot = row_of(matrix, j)[j];
+        for (int32_t i = j + 1; i <= last; i++)
+            column[i] = row_of(matrix, i)[j];
+        for (int32_t i = j + 1; i <= last; i++) {
+            double *row = row_of(matrix, i);
+            double scaled = column[i] / pivot;
             row[j] = scaled;
+            if (scaled == 0)
+                continue;
+            for (int32_t k = j + 1; k <= i; k++)
+                row[k] -= scaled * column[k];
         }
     }
 }
@@ -136,7 +134,7 @@ snow_status snow_exits_hexagonal(int32_t radius, double *chance, snow_heap *heap
     matrix.value = snow_heap_get(heap, (size_t)count * (size_t)(matrix.width + 1), sizeof *matrix.value);
     if (matrix.value != NULL) {
         fill(&matrix, radius);
-        factor(&matrix, count);
+        factor(&matrix, count, visits);
         solve(&matrix, count, visits);
         collect(visits, radius, chance);
     }

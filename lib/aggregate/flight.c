@@ -80,12 +80,24 @@ COPIED snow_site fold(const snow_source_of_walkers *source, snow_aggregate_latti
     return site;
 }
 
-/* A site at distance `radius`, by the exact law. */
+/* A site at distance `radius`, by the exact law: a small region, */
+COPIED snow_site step(const snow_exit_table *table, snow_aggregate_lattice lattice, snow_site site, uint64_t bits)
+{
+    const snow_exit_step *step = &table->step[(uint32_t)bits & table->step_mask];
+    bool own = (uint32_t)(bits >> 32) < step->threshold;
+    site.x += own ? step->own[0] : step->other[0];
+    site.y += own ? step->own[1] : step->other[1];
+    if (lattice == SNOW_AGGREGATE_CUBIC)
+        site.z += own ? step->own[2] : step->other[2];
+    return site;
+}
+
+/* and any other one. */
 COPIED snow_site jump(const snow_exit_table *table, snow_aggregate_lattice lattice, snow_site site, uint64_t bits)
 {
     uint32_t low = (uint32_t)bits;
     uint32_t high = (uint32_t)(bits >> 32);
-    const snow_exit *exit = &table->exit[low & table->mask];
+    const snow_exit *exit = &table->exit[low & table->exit_mask];
     int32_t radius = table->radius;
     if (lattice == SNOW_AGGREGATE_SQUARE) {
         int32_t along = high < exit->threshold ? exit->own : exit->other;
@@ -195,6 +207,7 @@ COPIED snow_site fly(const snow_ground *ground, snow_draws *draws, snow_diary *d
                      bool careful, bool in_vessel, bool noted)
 {
     const snow_source_of_walkers *source = &ground->source;
+    const uint32_t small = (uint32_t)ground->exits.small;
     snow_site site = snow_source_launch(source, draws);
     for (;;) {
         uint32_t seen = see(ground, lattice, careful, site);
@@ -215,7 +228,9 @@ COPIED snow_site fly(const snow_ground *ground, snow_draws *draws, snow_diary *d
             continue;
         }
         const snow_exit_table *table = &ground->exits.table[seen];
-        if (lattice == SNOW_AGGREGATE_HEXAGONAL && RARE(table->exit == NULL))
+        if (seen <= small)
+            site = step(table, lattice, site, snow_draws_next(draws));
+        else if (lattice == SNOW_AGGREGATE_HEXAGONAL && RARE(table->exit == NULL))
             site = snow_source_circle(site, table->radius, draws);
         else
             site = jump(table, lattice, site, snow_draws_next(draws));

@@ -5,9 +5,9 @@
 #include <string.h>
 
 enum {
-    NEAR_REACH = 8,  /* blocks; beyond: 9 */
-    TILE_REACH = 15, /* tiles, and squares of tiles; beyond: 16 */
-    BEYOND = 16
+    NEAR_REACH = SNOW_PLANE_NEAR,
+    FAR_REACH = 15, /* patches, tiles, squares */
+    BEYOND = FAR_REACH + 1
 };
 
 /* Blocks apart: a block d away leaves (d − 1) blocks free between. */
@@ -75,35 +75,77 @@ static size_t squares_of(snow_plane_box box)
     return (size_t)(box.columns / 16) * (box.rows / 16);
 }
 
+static size_t tiles_of(snow_plane_box box)
+{
+    return (size_t)box.columns * box.rows;
+}
+
 static snow_status cover(snow_plane_map *map, snow_heap *heap, snow_plane_box box)
 {
-    size_t tiles = (size_t)box.columns * box.rows;
-    uintptr_t *tile = snow_heap_get_raw(heap, tiles, sizeof *tile);
+    uintptr_t *tile = snow_heap_get_raw(heap, tiles_of(box), sizeof *tile);
+    uint8_t *patch = snow_heap_get_raw(heap, tiles_of(box), 16);
     uint8_t *square = snow_heap_get_raw(heap, squares_of(box), 1);
-    if (tile == NULL || square == NULL) {
+    if (tile == NULL || patch == NULL || square == NULL) {
         snow_heap_put(heap, square);
+        snow_heap_put(heap, patch);
         snow_heap_put(heap, tile);
         return heap->refusal;
     }
-    for (size_t i = 0; i < tiles; i++)
+    for (size_t i = 0; i < tiles_of(box); i++)
         tile[i] = BEYOND;
+    memset(patch, BEYOND, tiles_of(box) * 16);
     memset(square, BEYOND, squares_of(box));
     map->box = box;
+    map->width = box.columns * 64;
+    map->height = box.rows * 64;
     map->tile = tile;
+    map->patch = patch;
     map->square = square;
     return SNOW_OK;
 }
 
-static uint32_t *line_word(snow_plane_map *map, snow_plane_page *page, uint32_t i, uint32_t j)
+static void uncover(const snow_plane_map *map, snow_heap *heap)
 {
-    uint32_t *number = &page->line[j / 4 * 4 + i / 4];
-    if (*number == 0) {
-        *number = snow_pool_take(&map->lines);
-        if (map->keeps_matter)
-            snow_pool_take(&map->matter);
+    snow_heap_put(heap, map->square);
+    snow_heap_put(heap, map->patch);
+    snow_heap_put(heap, map->tile);
+}
+
+/* Where nothing is near, and nothing is. */
+static snow_plane_matter nothing;
+
+static snow_plane_line *line_with(snow_plane_map *map, snow_plane_page *page, uint32_t i, uint32_t j)
+{
+    snow_plane_line **line = &page->line[j / 4 * 4 + i / 4];
+    if (*line == &nothing.line)
+        *line = snow_pool_take(&map->lines);
+    return *line;
+}
+
+static bool holds_special(const snow_plane_page *page)
+{
+    return memchr(page->near, 0, sizeof page->near) != NULL;
+}
+
+/* What each distance leaves free, at least. */
+static void make_classes(snow_plane_map *map, const snow_exits *exits)
+{
+    for (int d = 0; d <= BEYOND; d++) {
+        int64_t patch = d <= 2 ? 4 * NEAR_REACH + 1 : 16 * (d - 1) + 1;
+        int64_t tile = 64 * (d - 1) + 1;
+        int64_t square = d <= 1 ? 64 * FAR_REACH + 1 : 1024 * (d - 1) + 1;
+        map->patch_class[d] = (uint8_t)snow_exits_class(exits, patch);
+        map->tile_class[d] = (uint8_t)snow_exits_class(exits, tile);
+        map->square_class[d] = (uint8_t)snow_exits_class(exits, square);
     }
-    uint32_t *line = snow_pool_item(&map->lines, *number);
-    return &line[j % 4 * 4 + i % 4];
+}
+
+static void make_distances(snow_plane_map *map)
+{
+    memset(map->apart, 255, sizeof map->apart);
+    for (int j = -FAR_REACH; j <= FAR_REACH; j++)
+        for (int i = -FAR_REACH; i <= FAR_REACH; i++)
+            map->apart[j + FAR_REACH][i + FAR_REACH + 16] = (uint8_t)apart(map->lattice, i, j);
 }
 
 snow_status snow_plane_map_start(snow_plane_map *map, snow_heap *heap, const snow_exits *exits, bool keeps_matter,
@@ -111,43 +153,25 @@ snow_status snow_plane_map_start(snow_plane_map *map, snow_heap *heap, const sno
 {
     *map = (snow_plane_map){
         .pages = {.item = sizeof(snow_plane_page)},
-        .lines = {.item = 16 * sizeof(uint32_t)},
-        .matter = {.item = sizeof(snow_plane_matter)},
+        .lines = {.item = keeps_matter ? sizeof(snow_plane_matter) : sizeof(snow_plane_line)},
         .keeps_matter = keeps_matter,
         .lattice = exits->lattice,
     };
-    for (int d = 0; d <= BEYOND; d++) {
-        int64_t free = d <= 1 ? 4 * NEAR_REACH + 1 : 64 * (d - 1) + 1;
-        map->tile_class[d] = (uint8_t)snow_exits_class(exits, free);
-        free = d <= 1 ? 64 * TILE_REACH + 1 : 1024 * (d - 1) + 1;
-        map->square_class[d] = (uint8_t)snow_exits_class(exits, free);
-    }
+    make_classes(map, exits);
+    make_distances(map);
     for (int place = 0; place < 16; place++)
         for (int block = 0; block < 9; block++)
             map->print[place][block] = print_of(map->lattice, place, block);
-    snow_status status = cover(map, heap, box);
-    if (status == SNOW_OK)
-        status = snow_pool_reserve(&map->lines, heap, 1);
-    if (status == SNOW_OK && keeps_matter)
-        status = snow_pool_reserve(&map->matter, heap, 1);
-    if (status != SNOW_OK) {
-        snow_plane_map_end(map, heap);
-        return status;
-    }
-    snow_pool_take(&map->lines); /* line 0: nothing is near */
-    if (keeps_matter)
-        snow_pool_take(&map->matter);
-    return SNOW_OK;
+    return cover(map, heap, box);
 }
 
 void snow_plane_map_end(snow_plane_map *map, snow_heap *heap)
 {
-    snow_pool_end(&map->matter, heap);
     snow_pool_end(&map->lines, heap);
     snow_pool_end(&map->pages, heap);
-    snow_heap_put(heap, map->square);
-    snow_heap_put(heap, map->tile);
+    uncover(map, heap);
     map->square = NULL;
+    map->patch = NULL;
     map->tile = NULL;
 }
 
@@ -165,29 +189,64 @@ static snow_plane_page *page_of(snow_plane_map *map, int64_t column, int64_t row
 {
     uintptr_t *entry = &map->tile[(size_t)row * map->box.columns + (size_t)column];
     if (*entry <= BEYOND) {
-        snow_plane_page *page = snow_pool_item(&map->pages, snow_pool_take(&map->pages));
+        snow_plane_page *page = snow_pool_take(&map->pages);
         memset(page->near, NEAR_REACH + 1, sizeof page->near);
+        for (int i = 0; i < 16; i++)
+            page->line[i] = &nothing.line;
         *entry = (uintptr_t)page;
     }
     return (snow_plane_page *)*entry;
 }
 
+#if defined(__GNUC__)
+typedef uint8_t row_of_blocks __attribute__((vector_size(16)));
+#endif
+
+/* The lesser of each two. */
+static void lower(uint8_t *known, const uint8_t *bound)
+{
+#if defined(__GNUC__)
+    row_of_blocks a;
+    row_of_blocks b;
+    memcpy(&a, known, sizeof a);
+    memcpy(&b, bound, sizeof b);
+    row_of_blocks less = (row_of_blocks)(a < b);
+    a = (a & less) | (b & ~less);
+    memcpy(known, &a, sizeof a);
+#else
+    for (int i = 0; i < 16; i++)
+        known[i] = known[i] < bound[i] ? known[i] : bound[i];
+#endif
+}
+
 /* The block (i, j) has got its first special site. */
 static void spread_near(snow_plane_map *map, int64_t i, int64_t j)
 {
-    int64_t first_i = at_least(i - NEAR_REACH, 0);
-    int64_t last_i = at_most(i + NEAR_REACH, (int64_t)map->box.columns * 16 - 1);
-    int64_t first_j = at_least(j - NEAR_REACH, 0);
-    int64_t last_j = at_most(j + NEAR_REACH, (int64_t)map->box.rows * 16 - 1);
-    for (int64_t y = first_j; y <= last_j; y++) {
-        for (int64_t x = first_i; x <= last_i;) {
-            uint8_t *near = page_of(map, x / 16, y / 16)->near + y % 16 * 16;
-            int64_t end = at_most(x - x % 16 + 16, last_i + 1);
-            for (; x < end; x++) {
-                int d = apart(map->lattice, (int)(x - i), (int)(y - j));
-                near[x % 16] = (uint8_t)at_most(near[x % 16], d);
-            }
+    int64_t first_row = at_least(j - NEAR_REACH, 0);
+    int64_t last_row = at_most(j + NEAR_REACH, (int64_t)map->box.rows * 16 - 1);
+    int64_t first_tile = at_least(i - NEAR_REACH, 0) / 16;
+    int64_t last_tile = at_most(i + NEAR_REACH, (int64_t)map->box.columns * 16 - 1) / 16;
+    for (int64_t tile = first_tile; tile <= last_tile; tile++) {
+        for (int64_t row = first_row; row <= last_row;) {
+            uint8_t *near = page_of(map, tile, row / 16)->near;
+            int64_t end = at_most(row - row % 16 + 16, last_row + 1);
+            for (; row < end; row++)
+                lower(near + row % 16 * 16, map->apart[row - j + FAR_REACH] + (tile * 16 - i + FAR_REACH + 16));
         }
+    }
+}
+
+/* The patch (i, j) has got its first special site. */
+static void spread_patch(snow_plane_map *map, int64_t i, int64_t j)
+{
+    int64_t columns = map->box.columns * 4;
+    int64_t first = at_least(i - FAR_REACH, 0);
+    int64_t last = at_most(i + FAR_REACH, columns - 1);
+    for (int64_t y = at_least(j - FAR_REACH, 0); y <= at_most(j + FAR_REACH, (int64_t)map->box.rows * 4 - 1); y++) {
+        uint8_t *line = map->patch + y * columns;
+        const uint8_t *bound = map->apart[y - j + FAR_REACH] + (FAR_REACH + 16 - i);
+        for (int64_t x = first; x <= last; x++)
+            line[x] = line[x] < bound[x] ? line[x] : bound[x];
     }
 }
 
@@ -195,8 +254,8 @@ static void spread_square(snow_plane_map *map, int64_t i, int64_t j)
 {
     int64_t columns = map->box.columns / 16;
     int64_t rows = map->box.rows / 16;
-    for (int64_t y = at_least(j - TILE_REACH, 0); y <= at_most(j + TILE_REACH, rows - 1); y++) {
-        for (int64_t x = at_least(i - TILE_REACH, 0); x <= at_most(i + TILE_REACH, columns - 1); x++) {
+    for (int64_t y = at_least(j - FAR_REACH, 0); y <= at_most(j + FAR_REACH, rows - 1); y++) {
+        for (int64_t x = at_least(i - FAR_REACH, 0); x <= at_most(i + FAR_REACH, columns - 1); x++) {
             uint8_t *known = &map->square[y * columns + x];
             *known = (uint8_t)at_most(*known, apart(map->lattice, (int)(x - i), (int)(y - j)));
         }
@@ -206,8 +265,8 @@ static void spread_square(snow_plane_map *map, int64_t i, int64_t j)
 /* The tile (i, j) has got its first special site. */
 static void spread_tile(snow_plane_map *map, int64_t i, int64_t j)
 {
-    for (int64_t y = at_least(j - TILE_REACH, 0); y <= at_most(j + TILE_REACH, (int64_t)map->box.rows - 1); y++) {
-        for (int64_t x = at_least(i - TILE_REACH, 0); x <= at_most(i + TILE_REACH, (int64_t)map->box.columns - 1); x++) {
+    for (int64_t y = at_least(j - FAR_REACH, 0); y <= at_most(j + FAR_REACH, (int64_t)map->box.rows - 1); y++) {
+        for (int64_t x = at_least(i - FAR_REACH, 0); x <= at_most(i + FAR_REACH, (int64_t)map->box.columns - 1); x++) {
             uintptr_t *entry = &map->tile[(size_t)y * map->box.columns + (size_t)x];
             uintptr_t d = (uintptr_t)apart(map->lattice, (int)(x - i), (int)(y - j));
             if (*entry <= BEYOND && d < *entry)
@@ -219,30 +278,42 @@ static void spread_tile(snow_plane_map *map, int64_t i, int64_t j)
         spread_square(map, i / 16, j / 16);
 }
 
+/* Pages and patches move to the new box. */
+static void copy_in(snow_plane_map *map, const snow_plane_map *old)
+{
+    int64_t shift_x = ((int64_t)old->box.x - map->box.x) / 64;
+    int64_t shift_y = ((int64_t)old->box.y - map->box.y) / 64;
+    for (int64_t y = 0; y < old->box.rows; y++) {
+        for (int64_t x = 0; x < old->box.columns; x++) {
+            uintptr_t entry = old->tile[(size_t)y * old->box.columns + (size_t)x];
+            if (entry > BEYOND)
+                map->tile[(size_t)(y + shift_y) * map->box.columns + (size_t)(x + shift_x)] = entry;
+        }
+    }
+    for (int64_t y = 0; y < (int64_t)old->box.rows * 4; y++)
+        memcpy(map->patch + (size_t)(y + 4 * shift_y) * (map->box.columns * 4) + 4 * shift_x,
+               old->patch + (size_t)y * (old->box.columns * 4), old->box.columns * 4);
+}
+
 snow_status snow_plane_map_widen(snow_plane_map *map, snow_heap *heap, snow_plane_box box)
 {
     snow_plane_map old = *map;
     snow_status status = cover(map, heap, box);
     if (status != SNOW_OK)
         return status;
-    int64_t shift_x = ((int64_t)old.box.x - box.x) / 64;
-    int64_t shift_y = ((int64_t)old.box.y - box.y) / 64;
-    for (int64_t y = 0; y < old.box.rows; y++) {
-        for (int64_t x = 0; x < old.box.columns; x++) {
-            uintptr_t entry = old.tile[(size_t)y * old.box.columns + (size_t)x];
-            if (entry > BEYOND)
-                map->tile[(size_t)(y + shift_y) * box.columns + (size_t)(x + shift_x)] = entry;
-        }
-    }
+    copy_in(map, &old);
+    uncover(&old, heap);
     for (int64_t y = 0; y < box.rows; y++) {
         for (int64_t x = 0; x < box.columns; x++) {
             uintptr_t entry = map->tile[(size_t)y * box.columns + (size_t)x];
-            if (entry > BEYOND && ((const snow_plane_page *)entry)->holds_special)
+            if (entry > BEYOND && holds_special((const snow_plane_page *)entry))
                 spread_tile(map, x, y);
         }
     }
-    snow_heap_put(heap, old.square);
-    snow_heap_put(heap, old.tile);
+    for (int64_t y = 0; y < (int64_t)box.rows * 4; y++)
+        for (int64_t x = 0; x < (int64_t)box.columns * 4; x++)
+            if (map->patch[y * box.columns * 4 + x] == 0)
+                spread_patch(map, x, y);
     return SNOW_OK;
 }
 
@@ -250,53 +321,51 @@ snow_status snow_plane_map_reserve(snow_plane_map *map, snow_heap *heap)
 {
     enum { BLOCKS = 9, TILES = 9 };
     snow_status status = snow_pool_reserve(&map->pages, heap, TILES);
-    if (status == SNOW_OK)
-        status = snow_pool_reserve(&map->lines, heap, BLOCKS);
-    if (status == SNOW_OK && map->keeps_matter)
-        status = snow_pool_reserve(&map->matter, heap, BLOCKS);
-    return status;
+    return status == SNOW_OK ? snow_pool_reserve(&map->lines, heap, BLOCKS) : status;
 }
 
-static void add_special(snow_plane_map *map, int64_t i, int64_t j)
+static void add_special(snow_plane_map *map, snow_plane_page *page, int32_t i, int32_t j)
 {
-    snow_plane_page *page = page_of(map, i / 16, j / 16);
     if (page->near[j % 16 * 16 + i % 16] == 0)
         return;
+    bool is_first = !holds_special(page);
     spread_near(map, i, j);
-    if (page->holds_special)
-        return;
-    page->holds_special = 1;
-    spread_tile(map, i / 16, j / 16);
+    if (map->patch[(size_t)(j / 4) * (map->box.columns * 4) + (size_t)(i / 4)] != 0)
+        spread_patch(map, i / 4, j / 4);
+    if (is_first)
+        spread_tile(map, i / 16, j / 16);
 }
 
-static void add_matter(snow_plane_map *map, int64_t u, int64_t v, bool obstacle)
+static void add_print(snow_plane_map *map, int32_t i, int32_t j, uint32_t print)
+{
+    if ((uint32_t)i >= map->box.columns * 16 || (uint32_t)j >= map->box.rows * 16)
+        return;
+    snow_plane_page *page = page_of(map, i / 16, j / 16);
+    if (has_special(print))
+        add_special(map, page, i, j);
+    uint32_t *word = &line_with(map, page, (uint32_t)i % 16, (uint32_t)j % 16)->word[j % 4 * 4 + i % 4];
+    *word = greater(*word, print);
+}
+
+static void add_matter(snow_plane_map *map, uint32_t u, uint32_t v, bool obstacle)
 {
     snow_plane_page *page = page_of(map, u / 64, v / 64);
-    snow_plane_matter *matter = snow_pool_item(&map->matter, page->line[v / 16 % 4 * 4 + u / 16 % 4]);
+    snow_plane_matter *matter = (snow_plane_matter *)line_with(map, page, u / 4 % 16, v / 4 % 16);
     uint16_t *word = &(obstacle ? matter->obstacle : matter->filled)[v / 4 % 4 * 4 + u / 4 % 4];
     *word = (uint16_t)(*word | 1u << (v % 4 * 4 + u % 4));
 }
 
 void snow_plane_map_add(snow_plane_map *map, int32_t x, int32_t y, bool obstacle)
 {
-    int64_t u = (int64_t)x - map->box.x;
-    int64_t v = (int64_t)y - map->box.y;
-    int64_t block_i = (u + 4) / 4 - 1; /* u and v may be −1: a floor */
-    int64_t block_j = (v + 4) / 4 - 1;
+    int32_t u = x - map->box.x;
+    int32_t v = y - map->box.y;
+    int32_t i = (u + 4) / 4 - 1; /* u and v may be -1: a floor */
+    int32_t j = (v + 4) / 4 - 1;
     const uint32_t *print = map->print[(v + 4) % 4 * 4 + (u + 4) % 4];
-    for (int block = 0; block < 9; block++) {
-        int64_t i = block_i + block % 3 - 1;
-        int64_t j = block_j + block / 3 - 1;
-        if (print[block] == 0 || i < 0 || j < 0 || i >= (int64_t)map->box.columns * 16 ||
-            j >= (int64_t)map->box.rows * 16)
-            continue;
-        if (has_special(print[block]))
-            add_special(map, i, j);
-        snow_plane_page *page = page_of(map, i / 16, j / 16);
-        uint32_t *word = line_word(map, page, (uint32_t)(i % 16), (uint32_t)(j % 16));
-        *word = greater(*word, print[block]);
-    }
-    bool inside = u >= 0 && v >= 0 && u < (int64_t)map->box.columns * 64 && v < (int64_t)map->box.rows * 64;
-    if (map->keeps_matter && inside)
-        add_matter(map, u, v, obstacle);
+    for (int row = 0; row < 3; row++)
+        for (int column = 0; column < 3; column++)
+            if (print[3 * row + column] != 0)
+                add_print(map, i + column - 1, j + row - 1, print[3 * row + column]);
+    if (map->keeps_matter && (uint32_t)u < map->width && (uint32_t)v < map->height)
+        add_matter(map, (uint32_t)u, (uint32_t)v, obstacle);
 }

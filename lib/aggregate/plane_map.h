@@ -10,7 +10,8 @@
      "line") for 16 x 16 sites near which there is one;
    - for each block how many blocks away the nearest one with a special site is,
      up to 8: a byte a block, in "pages" of 64 x 64 sites near which there is one;
-   - the same for tiles of 64 x 64 sites, up to 15, where there is no page;
+   - the same for patches, the places of lines, up to 15;
+   - the same for tiles, the places of pages, up to 15, where there is no page;
    - the same for squares of 16 x 16 tiles, up to 15.
    Where blocks of b sites are d blocks apart, (d - 1) b sites are free between
    their nearest sites. The map is a function of the set of special sites: the
@@ -22,18 +23,28 @@
 #include "aggregate/matter.h"
 #include "aggregate/pool.h"
 
-typedef struct snow_plane_page {
-    uint8_t near[256];
-    uint32_t line[16]; /* 0: nothing is near */
-    uint32_t holds_special;
-    uint32_t unused[15];
-} snow_plane_page;
+enum {
+    SNOW_PLANE_NEAR = 8,      /* the greatest distance of blocks that is told apart */
+    SNOW_PLANE_TILES_FROM = 5 /* the least distance of tiles that says more than that of patches */
+};
 
-/* Which sites of a line are filled and which are obstacles: bits, a word a block. */
+/* Three less the distance of each site: the lower bits of the sites of a block
+   in the lower half of its word, the upper bits in the upper half. */
+typedef struct snow_plane_line {
+    uint32_t word[16];
+} snow_plane_line;
+
+/* The same where it matters which sites are filled and which are obstacles: a bit a site. */
 typedef struct snow_plane_matter {
+    snow_plane_line line;
     uint16_t filled[16];
     uint16_t obstacle[16];
 } snow_plane_matter;
+
+typedef struct snow_plane_page {
+    uint8_t near[256];
+    snow_plane_line *line[16]; /* never NULL: where nothing is near they share one */
+} snow_plane_page;
 
 /* The sites that the map covers: whole squares of tiles. */
 typedef struct snow_plane_box {
@@ -44,15 +55,18 @@ typedef struct snow_plane_box {
 typedef struct snow_plane_map {
     snow_plane_box box;
     uintptr_t *tile; /* up to 16: the distance; else the address of a page */
+    uint8_t *patch;
     uint8_t *square;
+    uint8_t patch_class[17];
     uint8_t tile_class[17];
     uint8_t square_class[17];
+    uint32_t width, height; /* of the box, sites */
     snow_pool pages;
-    snow_pool lines;
-    snow_pool matter; /* one for each line, if wanted */
+    snow_pool lines; /* with matter, if that is kept */
     bool keeps_matter;
     snow_aggregate_lattice lattice;
-    uint32_t print[16][9]; /* what a filled site does to the words of the blocks round it, by its place in its block */
+    uint32_t print[16][9];     /* what a filled site does to the words of the blocks round it, by its place in its block */
+    uint8_t apart[31][31 + 32]; /* distances up to 15; 16 columns of 255 at both sides */
 } snow_plane_map;
 
 snow_status snow_plane_map_start(snow_plane_map *map, snow_heap *heap, const snow_exits *exits, bool keeps_matter,
@@ -66,17 +80,14 @@ snow_status snow_plane_map_widen(snow_plane_map *map, snow_heap *heap, snow_plan
 snow_status snow_plane_map_reserve(snow_plane_map *map, snow_heap *heap);
 void snow_plane_map_add(snow_plane_map *map, int32_t x, int32_t y, bool obstacle);
 
-static inline bool snow_plane_map_has(const snow_plane_map *map, uint32_t column, uint32_t row)
+/* Where the nearest special site is too far for a page. */
+static inline int snow_plane_map_look_far(const snow_plane_map *map, uintptr_t entry, uint32_t u, uint32_t v)
 {
-    return column < map->box.columns && row < map->box.rows;
-}
-
-/* Where tiles have no page. */
-static inline int snow_plane_map_look_far(const snow_plane_map *map, uintptr_t distance, uint32_t column, uint32_t row)
-{
-    if (distance < 16)
-        return map->tile_class[distance];
-    return map->square_class[map->square[(size_t)(row / 16) * (map->box.columns / 16) + column / 16]];
+    if (entry < SNOW_PLANE_TILES_FROM || entry > 16)
+        return map->patch_class[map->patch[(size_t)(v / 16) * (map->box.columns * 4) + u / 16]];
+    if (entry < 16)
+        return map->tile_class[entry];
+    return map->square_class[map->square[(size_t)(v / 1024) * (map->box.columns / 16) + u / 1024]];
 }
 
 /* 0: special; else a class; SNOW_MAP_BEYOND. */
@@ -84,21 +95,17 @@ static inline int snow_plane_map_look(const snow_plane_map *map, int32_t x, int3
 {
     uint32_t u = (uint32_t)x - (uint32_t)map->box.x;
     uint32_t v = (uint32_t)y - (uint32_t)map->box.y;
-    uint32_t column = u / 64;
-    uint32_t row = v / 64;
-    if (!snow_plane_map_has(map, column, row))
+    if (u >= map->width || v >= map->height)
         return SNOW_MAP_BEYOND;
-    uintptr_t entry = map->tile[(size_t)row * map->box.columns + column];
+    uintptr_t entry = map->tile[(size_t)(v / 64) * map->box.columns + u / 64];
     if (entry <= 16)
-        return snow_plane_map_look_far(map, entry, column, row);
+        return snow_plane_map_look_far(map, entry, u, v);
     const snow_plane_page *page = (const snow_plane_page *)entry;
-    uint32_t i = u / 4 % 16;
-    uint32_t j = v / 4 % 16;
-    int near = page->near[j * 16 + i];
+    int near = page->near[v / 4 % 16 * 16 + u / 4 % 16];
     if (near >= 2)
-        return near + 2;
-    const uint32_t *line = snow_pool_item(&map->lines, page->line[j / 4 * 4 + i / 4]);
-    uint32_t word = line[j % 4 * 4 + i % 4] >> (v % 4 * 4 + u % 4);
+        return near <= SNOW_PLANE_NEAR ? near + 2 : snow_plane_map_look_far(map, entry, u, v);
+    const snow_plane_line *line = page->line[v / 16 % 4 * 4 + u / 16 % 4];
+    uint32_t word = line->word[v / 4 % 4 * 4 + u / 4 % 4] >> (v % 4 * 4 + u % 4);
     return 3 - (int)((word >> 15 & 2) | (word & 1));
 }
 
@@ -107,13 +114,13 @@ static inline int snow_plane_map_matter(const snow_plane_map *map, int32_t x, in
 {
     uint32_t u = (uint32_t)x - (uint32_t)map->box.x;
     uint32_t v = (uint32_t)y - (uint32_t)map->box.y;
-    if (!snow_plane_map_has(map, u / 64, v / 64))
+    if (u >= map->width || v >= map->height)
         return 0;
     uintptr_t entry = map->tile[(size_t)(v / 64) * map->box.columns + u / 64];
     if (entry <= 16)
         return 0;
     const snow_plane_page *page = (const snow_plane_page *)entry;
-    const snow_plane_matter *matter = snow_pool_item(&map->matter, page->line[v / 16 % 4 * 4 + u / 16 % 4]);
+    const snow_plane_matter *matter = (const snow_plane_matter *)page->line[v / 16 % 4 * 4 + u / 16 % 4];
     uint32_t block = v / 4 % 4 * 4 + u / 4 % 4;
     uint32_t bit = v % 4 * 4 + u % 4;
     return (matter->filled[block] >> bit & 1) | (matter->obstacle[block] >> bit & 1) << 1;

@@ -2,10 +2,12 @@
 
 #include <string.h>
 
+enum { CHUNK = 128 }; /* items */
+
 static snow_status widen(snow_pool *pool, snow_heap *heap)
 {
-    uint32_t room = pool->room == 0 ? 8 : 2 * pool->room;
-    char **chunk = snow_heap_get(heap, room, sizeof *chunk);
+    size_t room = pool->room == 0 ? 8 : 2 * pool->room;
+    char **chunk = snow_heap_get_raw(heap, room, sizeof *chunk);
     if (chunk == NULL)
         return heap->refusal;
     if (pool->chunks > 0)
@@ -16,13 +18,13 @@ static snow_status widen(snow_pool *pool, snow_heap *heap)
     return SNOW_OK;
 }
 
-snow_status snow_pool_reserve(snow_pool *pool, snow_heap *heap, uint32_t more)
+snow_status snow_pool_reserve(snow_pool *pool, snow_heap *heap, size_t more)
 {
-    while ((size_t)pool->chunks * SNOW_POOL_CHUNK < (size_t)pool->count + more) {
+    while (pool->chunks * CHUNK < pool->count + more) {
         snow_status status = pool->chunks == pool->room ? widen(pool, heap) : SNOW_OK;
         if (status != SNOW_OK)
             return status;
-        char *chunk = snow_heap_get(heap, SNOW_POOL_CHUNK, pool->item);
+        char *chunk = snow_heap_get(heap, CHUNK, pool->item);
         if (chunk == NULL)
             return heap->refusal;
         pool->chunk[pool->chunks++] = chunk;
@@ -30,14 +32,15 @@ snow_status snow_pool_reserve(snow_pool *pool, snow_heap *heap, uint32_t more)
     return SNOW_OK;
 }
 
-uint32_t snow_pool_take(snow_pool *pool)
+void *snow_pool_take(snow_pool *pool)
 {
-    return pool->count++;
+    size_t number = pool->count++;
+    return pool->chunk[number / CHUNK] + number % CHUNK * pool->item;
 }
 
 void snow_pool_end(snow_pool *pool, snow_heap *heap)
 {
-    for (uint32_t i = 0; i < pool->chunks; i++)
+    for (size_t i = 0; i < pool->chunks; i++)
         snow_heap_put(heap, pool->chunk[i]);
     snow_heap_put(heap, pool->chunk);
     *pool = (snow_pool){.item = pool->item};

@@ -1,4 +1,4 @@
-/* Items of one size that never move, in chunks, numbered from 0. */
+/* Items of one size that never move, in chunks. */
 #ifndef SNOW_AGGREGATE_POOL_H
 #define SNOW_AGGREGATE_POOL_H
 
@@ -6,28 +6,21 @@
 
 #include <stdint.h>
 
-enum { SNOW_POOL_SHIFT = 7, SNOW_POOL_CHUNK = 1 << SNOW_POOL_SHIFT };
-
 typedef struct snow_pool {
     char **chunk;
     size_t item; /* bytes */
-    uint32_t count;
-    uint32_t chunks;
-    uint32_t room; /* for chunk pointers */
+    size_t count;
+    size_t chunks;
+    size_t room; /* for addresses of chunks */
 } snow_pool;
 
 /* Makes sure that `more` items can be taken. */
-snow_status snow_pool_reserve(snow_pool *pool, snow_heap *heap, uint32_t more);
+snow_status snow_pool_reserve(snow_pool *pool, snow_heap *heap, size_t more);
 
 /* The next item, zeroed; it was reserved. */
-uint32_t snow_pool_take(snow_pool *pool);
+void *snow_pool_take(snow_pool *pool);
 
 /* Gives all items back. */
 void snow_pool_end(snow_pool *pool, snow_heap *heap);
-
-static inline void *snow_pool_item(const snow_pool *pool, uint32_t number)
-{
-    return pool->chunk[number >> SNOW_POOL_SHIFT] + (size_t)(number & (SNOW_POOL_CHUNK - 1)) * pool->item;
-}
 
 #endif

@@ -4,7 +4,7 @@
 
 #define HALF_SQRT_3 0.86602540378443864676
 
-enum { BLUR_PARTS = 8, BLUR_PART = 8, BLUR = BLUR_PARTS * BLUR_PART };
+enum { BLUR_PARTS = 8, BLUR_PART = 8 };
 
 typedef struct point {
     double x, y, z;
@@ -103,6 +103,26 @@ static int64_t root_above(int64_t square)
     return root;
 }
 
+/* Walkers that come back are put on the circle of half this radius, r. What the
+   lattice's kernel differs by there, cos(4 phi)/(6 pi r^2), matters by its
+   change across the cluster and by how far the arrival is from uniform: about
+   0.13 R/r^3 of a hit, which is less than 10^-9. */
+static int64_t far_in_plane(int64_t rim)
+{
+    int64_t circle = 2048;
+    for (int64_t most = 64; most < rim && circle < 16384; most *= 8)
+        circle *= 2;
+    return 2 * (rim > circle ? rim : circle);
+}
+
+/* In the same way, with (5 (x^4 + y^4 + z^4)/r^4 - 3)/(8 r^3) beside 1/r:
+   R^2/far^4 of a hit. */
+static int64_t far_in_space(int64_t rim)
+{
+    int64_t least = root_above(32768 * rim);
+    return least > 4 * rim ? least : 4 * rim;
+}
+
 void snow_source_fit(snow_source_of_walkers *source, int64_t farthest)
 {
     if (source->width > 0) {
@@ -115,10 +135,7 @@ void snow_source_fit(snow_source_of_walkers *source, int64_t farthest)
     int64_t rim = in_steps(root_above(farthest) + 3);
     source->rim = (int32_t)rim;
     source->reach = (int32_t)(source->lattice == SNOW_AGGREGATE_HEXAGONAL ? rim * 37 / 32 + 1 : rim);
-    if (is_in_space(source))
-        source->far = rim < 128 ? 2048 : rim < 1024 ? 16 * rim : 8 * rim;
-    else
-        source->far = rim < 16384 ? 32768 : 2 * rim;
+    source->far = is_in_space(source) ? far_in_space(rim) : far_in_plane(rim);
 }
 
 /* A row of the vessel; on the hexagonal lattice a site on a mirror stands for one, each other for two. */
@@ -147,7 +164,7 @@ snow_site snow_source_launch(const snow_source_of_walkers *source, snow_draws *d
 {
     if (source->width > 0)
         return launch_in_vessel(source, draws);
-    double radius = source->rim + blur(draws);
+    double radius = source->rim + blur(draws) * (is_in_space(source) ? 0.5 : 1);
     point unit = is_in_space(source) ? unit_sphere(draws) : unit_circle(draws);
     return site_at(source->lattice, (point){radius * unit.x, radius * unit.y, radius * unit.z});
 }
@@ -156,7 +173,11 @@ bool snow_source_is_beyond(const snow_source_of_walkers *source, snow_site site)
 {
     if (source->width > 0)
         return (is_in_space(source) ? site.z : site.y) > source->far;
-    return squared(point_of(source->lattice, site)) > (double)source->far * (double)source->far;
+    int64_t x = site.x;
+    int64_t y = site.y;
+    int64_t z = site.z;
+    int64_t mixed = source->lattice == SNOW_AGGREGATE_HEXAGONAL ? x * y : 0;
+    return x * x + y * y + z * z + mixed > source->far * source->far;
 }
 
 /* The disc |w| < 1 is turned so that 0 goes to a, where the walker's mirror image

@@ -89,8 +89,7 @@ snow_status snow_space_map_start(snow_space_map *map, snow_heap *heap, const sno
 {
     *map = (snow_space_map){
         .pages = {.item = sizeof(snow_space_page)},
-        .lines = {.item = 8 * sizeof(snow_space_word)},
-        .matter = {.item = sizeof(snow_space_matter)},
+        .lines = {.item = keeps_matter ? sizeof(snow_space_matter) : sizeof(snow_space_line)},
         .keeps_matter = keeps_matter,
     };
     for (int d = 0; d <= BEYOND; d++) {
@@ -99,10 +98,6 @@ snow_status snow_space_map_start(snow_space_map *map, snow_heap *heap, const sno
     }
     map->print = snow_heap_get_raw(heap, 64, sizeof *map->print);
     snow_status status = map->print == NULL ? heap->refusal : cover(map, heap, box);
-    if (status == SNOW_OK)
-        status = snow_pool_reserve(&map->lines, heap, 1);
-    if (status == SNOW_OK && keeps_matter)
-        status = snow_pool_reserve(&map->matter, heap, 1);
     if (status != SNOW_OK) {
         snow_space_map_end(map, heap);
         return status;
@@ -110,15 +105,11 @@ snow_status snow_space_map_start(snow_space_map *map, snow_heap *heap, const sno
     for (int place = 0; place < 64; place++)
         for (int block = 0; block < 27; block++)
             map->print[place][block] = print_of(place, block);
-    snow_pool_take(&map->lines); /* line 0: nothing is near */
-    if (keeps_matter)
-        snow_pool_take(&map->matter);
     return SNOW_OK;
 }
 
 void snow_space_map_end(snow_space_map *map, snow_heap *heap)
 {
-    snow_pool_end(&map->matter, heap);
     snow_pool_end(&map->lines, heap);
     snow_pool_end(&map->pages, heap);
     snow_heap_put(heap, map->print);
@@ -140,13 +131,23 @@ static uint8_t *cube_at(snow_space_map *map, int64_t column, int64_t row, int64_
     return &map->cube[line * (map->box.columns / 4) + (size_t)column];
 }
 
+/* Where nothing is near, and nothing is. */
+static snow_space_matter nothing;
+
+static bool holds_special(const snow_space_page *page)
+{
+    return memchr(page->near, 0, sizeof page->near) != NULL;
+}
+
 /* The page with the block (i, j, k). */
 static snow_space_page *page_with(snow_space_map *map, int64_t i, int64_t j, int64_t k)
 {
     uintptr_t *entry = tile_at(map, i / 4, j / 4, k / 4);
     if (*entry <= BEYOND) {
-        snow_space_page *page = snow_pool_item(&map->pages, snow_pool_take(&map->pages));
+        snow_space_page *page = snow_pool_take(&map->pages);
         memset(page->near, NEAR_REACH + 1, sizeof page->near);
+        for (int octant = 0; octant < 8; octant++)
+            page->line[octant] = &nothing.line;
         *entry = (uintptr_t)page;
     }
     return (snow_space_page *)*entry;
@@ -224,7 +225,7 @@ static void spread_all_tiles(snow_space_map *map)
         for (int64_t y = 0; y < map->box.rows; y++) {
             for (int64_t x = 0; x < map->box.columns; x++) {
                 uintptr_t entry = *tile_at(map, x, y, z);
-                if (entry > BEYOND && ((const snow_space_page *)entry)->holds_special)
+                if (entry > BEYOND && holds_special((const snow_space_page *)entry))
                     spread_tile(map, x, y, z);
             }
         }
@@ -259,36 +260,27 @@ snow_status snow_space_map_reserve(snow_space_map *map, snow_heap *heap)
 {
     enum { BLOCKS = 27, TILES = 27 };
     snow_status status = snow_pool_reserve(&map->pages, heap, TILES);
-    if (status == SNOW_OK)
-        status = snow_pool_reserve(&map->lines, heap, BLOCKS);
-    if (status == SNOW_OK && map->keeps_matter)
-        status = snow_pool_reserve(&map->matter, heap, BLOCKS);
-    return status;
+    return status == SNOW_OK ? snow_pool_reserve(&map->lines, heap, BLOCKS) : status;
 }
 
 static void add_special(snow_space_map *map, int64_t i, int64_t j, int64_t k)
 {
     if (*near_at(map, i, j, k) == 0)
         return;
+    bool is_first = !holds_special(page_with(map, i, j, k));
     spread_near(map, i, j, k);
-    snow_space_page *page = page_with(map, i, j, k);
-    if (page->holds_special)
-        return;
-    page->holds_special = 1;
-    spread_tile(map, i / 4, j / 4, k / 4);
+    if (is_first)
+        spread_tile(map, i / 4, j / 4, k / 4);
 }
 
 /* The line with the block (i, j, k). */
-static uint32_t line_with(snow_space_map *map, int64_t i, int64_t j, int64_t k)
+static snow_space_line *line_with(snow_space_map *map, int64_t i, int64_t j, int64_t k)
 {
     snow_space_page *page = page_with(map, i, j, k);
-    uint32_t *number = &page->line[snow_space_octant((uint32_t)i / 2, (uint32_t)j / 2, (uint32_t)k / 2)];
-    if (*number == 0) {
-        *number = snow_pool_take(&map->lines);
-        if (map->keeps_matter)
-            snow_pool_take(&map->matter);
-    }
-    return *number;
+    snow_space_line **line = &page->line[snow_space_octant((uint32_t)i / 2, (uint32_t)j / 2, (uint32_t)k / 2)];
+    if (*line == &nothing.line)
+        *line = snow_pool_take(&map->lines);
+    return *line;
 }
 
 static void add_print(snow_space_map *map, int64_t i, int64_t j, int64_t k, snow_space_word print)
@@ -298,8 +290,8 @@ static void add_print(snow_space_map *map, int64_t i, int64_t j, int64_t k, snow
         return;
     if ((print.upper & print.lower) != 0)
         add_special(map, i, j, k);
-    snow_space_word *line = snow_pool_item(&map->lines, line_with(map, i, j, k));
-    snow_space_word *word = &line[snow_space_octant((uint32_t)i, (uint32_t)j, (uint32_t)k)];
+    uint32_t octant = snow_space_octant((uint32_t)i, (uint32_t)j, (uint32_t)k);
+    snow_space_word *word = &line_with(map, i, j, k)->word[octant];
     *word = greater(*word, print);
 }
 
@@ -317,7 +309,7 @@ void snow_space_map_add(snow_space_map *map, int32_t x, int32_t y, int32_t z, bo
     if (!map->keeps_matter || u < 0 || v < 0 || w < 0 || u >= (int64_t)map->box.columns * 16 ||
         v >= (int64_t)map->box.rows * 16 || w >= (int64_t)map->box.layers * 16)
         return;
-    snow_space_matter *matter = snow_pool_item(&map->matter, line_with(map, i, j, k));
-    uint64_t *word = &(obstacle ? matter->obstacle : matter->filled)[snow_space_octant((uint32_t)i, (uint32_t)j, (uint32_t)k)];
-    *word |= UINT64_C(1) << place;
+    snow_space_matter *matter = (snow_space_matter *)line_with(map, i, j, k);
+    uint32_t octant = snow_space_octant((uint32_t)i, (uint32_t)j, (uint32_t)k);
+    (obstacle ? matter->obstacle : matter->filled)[octant] |= UINT64_C(1) << place;
 }

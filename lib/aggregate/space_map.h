@@ -9,23 +9,26 @@
 #include "aggregate/matter.h"
 #include "aggregate/pool.h"
 
-typedef struct snow_space_page {
-    uint8_t near[64];
-    uint32_t line[8]; /* 0: nothing is near */
-    uint32_t holds_special;
-    uint32_t unused[7];
-} snow_space_page;
-
 /* Upper and lower bits of 3 − distance, for the sites of a block. */
 typedef struct snow_space_word {
     uint64_t upper;
     uint64_t lower;
 } snow_space_word;
 
+typedef struct snow_space_line {
+    snow_space_word word[8];
+} snow_space_line;
+
 typedef struct snow_space_matter {
+    snow_space_line line;
     uint64_t filled[8];
     uint64_t obstacle[8];
 } snow_space_matter;
+
+typedef struct snow_space_page {
+    uint8_t near[64];
+    snow_space_line *line[8]; /* never NULL: where nothing is near they share one */
+} snow_space_page;
 
 /* The sites that the map covers: whole cubes of tiles. */
 typedef struct snow_space_box {
@@ -40,8 +43,7 @@ typedef struct snow_space_map {
     uint8_t tile_class[7];
     uint8_t cube_class[7];
     snow_pool pages;
-    snow_pool lines;
-    snow_pool matter; /* one for each line, if wanted */
+    snow_pool lines; /* with matter, if that is kept */
     bool keeps_matter;
     snow_space_word (*print)[27]; /* for each place in a block: what a filled site does to the words of the blocks round it */
 } snow_space_map;
@@ -97,8 +99,8 @@ static inline int snow_space_map_look(const snow_space_map *map, int32_t x, int3
     int near = page->near[snow_space_place(u / 4, v / 4, w / 4)];
     if (near >= 2)
         return near + 2;
-    const snow_space_word *line = snow_pool_item(&map->lines, page->line[snow_space_octant(u / 8, v / 8, w / 8)]);
-    const snow_space_word *word = &line[snow_space_octant(u / 4, v / 4, w / 4)];
+    const snow_space_line *line = page->line[snow_space_octant(u / 8, v / 8, w / 8)];
+    const snow_space_word *word = &line->word[snow_space_octant(u / 4, v / 4, w / 4)];
     uint32_t bit = snow_space_place(u, v, w);
     return 3 - (int)((word->upper >> bit & 1) << 1 | (word->lower >> bit & 1));
 }
@@ -115,8 +117,7 @@ static inline int snow_space_map_matter(const snow_space_map *map, int32_t x, in
     if (entry <= 6)
         return 0;
     const snow_space_page *page = (const snow_space_page *)entry;
-    const snow_space_matter *matter =
-        snow_pool_item(&map->matter, page->line[snow_space_octant(u / 8, v / 8, w / 8)]);
+    const snow_space_matter *matter = (const snow_space_matter *)page->line[snow_space_octant(u / 8, v / 8, w / 8)];
     uint32_t block = snow_space_octant(u / 4, v / 4, w / 4);
     uint32_t bit = snow_space_place(u, v, w);
     return (int)((matter->filled[block] >> bit & 1) | (matter->obstacle[block] >> bit & 1) << 1);
