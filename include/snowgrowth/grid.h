@@ -38,7 +38,8 @@ typedef struct snow_grid snow_grid;
 
 /** @brief The models that a grid can follow. */
 typedef enum snow_model {
-    SNOW_MODEL_REITER = 1 /**< Reiter's two-parameter model of 2005; see reiter.h. */
+    SNOW_MODEL_REITER = 1,   /**< Reiter's two-parameter model of 2005; see reiter.h. */
+    SNOW_MODEL_AGGREGATE = 3 /**< Aggregation and erosion; see aggregate.h. */
 } snow_model;
 
 /** @brief A cell in axial coordinates. */
@@ -96,11 +97,14 @@ typedef enum snow_stop_reason {
     SNOW_STOP_STILL = 5,     /**< No cell will freeze again, not in 2^40 steps. */
     SNOW_STOP_TIME = 6,      /**< The wall-clock budget was spent. */
     SNOW_STOP_CANCELLED = 7, /**< The progress callback asked for it. */
-    SNOW_STOP_UNSTABLE = 8   /**< The field grew without bound; the call returns ::SNOW_ERROR_UNSTABLE. */
+    SNOW_STOP_UNSTABLE = 8,  /**< The field grew without bound; the call returns ::SNOW_ERROR_UNSTABLE. */
+    SNOW_STOP_FULL = 20,     /**< Nothing more can join: the domain is full. Always looked at. */
+    SNOW_STOP_HEIGHT = 21    /**< The deposit reached the height. */
 } snow_stop_reason;
 
 /**
- * @brief The short name of a reason ("steps", "rim", "radius", "frozen", "still", "time", "cancelled", "unstable").
+ * @brief The short name of a reason ("steps", "rim", "radius", "frozen", "still", "time", "cancelled", "unstable",
+ *        "full", "height").
  * @param reason any value.
  * @return A constant string that the library owns; never NULL.
  */
@@ -141,8 +145,8 @@ typedef int (*snow_progress)(void *context, const snow_grid *grid, const snow_su
  *
  * All counts are those of the grid, not of the run: a run that was stopped and
  * is started again with the same conditions goes on to the same end. When
- * several hold after the same step, the reason is the first of: rim, radius,
- * frozen, still, steps, cancelled, time.
+ * several hold after the same step, the reason is the first of: rim, full,
+ * radius, height, frozen, still, steps, cancelled, time.
  */
 typedef struct snow_stop {
     size_t struct_size;     /**< Set by snow_stop_init(). */
@@ -155,6 +159,7 @@ typedef struct snow_stop {
     snow_progress progress; /**< Told about the run, and can end it; may be NULL. */
     void *progress_context; /**< Handed to progress. */
     int64_t progress_steps; /**< Steps between two calls of progress, at least 1; 100 by default. */
+    int64_t height;         /**< Ends when a deposit is at least so many rows high; 0: no limit. For models with a floor. */
 } snow_stop;
 
 /**
@@ -175,7 +180,8 @@ SNOW_API void snow_stop_init(snow_stop *stop, size_t struct_size);
  *         negative; ::SNOW_ERROR_BUSY from inside a progress callback;
  *         ::SNOW_ERROR_UNSTABLE when the field grows without bound, the grid
  *         then stands at its last sound step; ::SNOW_ERROR_STEP_LIMIT when the
- *         step count would pass 2^62.
+ *         step count would pass 2^62; ::SNOW_ERROR_FULL when nothing more can
+ *         join, the grid then stands at its last step.
  */
 SNOW_API snow_status snow_step(snow_grid *grid, int64_t steps);
 

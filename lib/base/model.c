@@ -70,8 +70,12 @@ snow_stop_reason snow_crystal_stops(const snow_grid *grid, const snow_stop *stop
     const snow_census *census = &grid->census;
     if (stop->rim && census->rim)
         return SNOW_STOP_RIM;
+    if (census->full)
+        return SNOW_STOP_FULL;
     if (stop->tip_radius > 0 && snow_census_tip(census) >= stop->tip_radius)
         return SNOW_STOP_RADIUS;
+    if (stop->height > 0 && census->height >= stop->height)
+        return SNOW_STOP_HEIGHT;
     if (stop->frozen > 0 && snow_census_frozen(census) >= stop->frozen)
         return SNOW_STOP_FROZEN;
     if (stop->still && census->still)
