@@ -155,8 +155,8 @@ SNOW_API void snow_aggregate_params_init(snow_aggregate_params *params, size_t s
 
 /**
  * @brief Sets the scene of a figure of the sources.
- * @param params an initialised scene; what makes up the scene is set, the
- *        random seed, threads of life beside it are kept.
+ * @param params an initialised scene; random_seed and record_order are kept,
+ *        all else is set.
  * @param name a name that snow_aggregate_preset_name() gives.
  * @return ::SNOW_OK, ::SNOW_ERROR_NULL, ::SNOW_ERROR_STRUCT_SIZE;
  *         ::SNOW_ERROR_AGGREGATE_PRESET when there is no such preset.
@@ -183,18 +183,27 @@ SNOW_API const char *snow_aggregate_preset_source(size_t index);
  * What sticks when p < 1: there is one trial in every time step that a walker
  * spends on a site where it touches, and (entry) one at every attempt to step
  * onto a filled site. A step onto a filled site does not take place and costs
- * its time.
+ * its time. In the shore scene a hit wears with chance p; clusters that a move
+ * brings together, or that stop it, merge with chance p; a disc that does not
+ * stick tries to step off by one diameter in a random direction, and stays for
+ * another trial where it would overlap.
  *
- * Fields that can be read: ::SNOW_FIELD_FROZEN (1 where a site is filled; in
- * the shore scene where a cell was washed away), ::SNOW_FIELD_INSIDE,
- * ::SNOW_FIELD_VALUE (as frozen; in the shore scene the hardness that is left),
- * ::SNOW_FIELD_RECEPTIVE (1 where a site is filled or next to one),
- * ::SNOW_FIELD_FREEZE_STEP (with record_order: the step in which the site was
- * filled, 0 for seeds). None can be set.
+ * Fields that can be read in the plane, but not off the lattice:
+ * ::SNOW_FIELD_FROZEN (1 where a site is filled; in the shore scene where a cell
+ * was washed away), ::SNOW_FIELD_INSIDE, ::SNOW_FIELD_VALUE (as frozen; in the
+ * shore scene the hardness that is left), ::SNOW_FIELD_RECEPTIVE (1 where a site
+ * is filled or next to one), ::SNOW_FIELD_FREEZE_STEP (the step in which the
+ * site was filled, 0 for seeds). The last needs record_order; with
+ * ::SNOW_AGGREGATE_ENGINE_JUMPS all need it but inside. None can be set. Mass and
+ * symmetry defect follow from them; pictures (render.h) are for the hexagonal
+ * lattice.
  *
- * Memory: 8 bytes a particle and about 4 more for the walk (16 and about 40 off
- * the lattice, 30 in the cluster–cluster scene); vessels, baths and shores a few
- * bits, shores 2 bytes, a site.
+ * Memory: 8 bytes a particle, and for the walk about 4 more with
+ * ::SNOW_AGGREGATE_ENGINE_JUMPS, else a byte for each site of the box about the
+ * particles (the vessel, up to their height). Shores take 2 bytes a cell; off
+ * the lattice about 60 bytes a particle; the cluster–cluster scene 160 bytes a
+ * particle and 5 for each site of its box. Stepping asks for memory as the
+ * cluster grows.
  *
  * @param params the scene.
  * @param options memory, threads, instruction set; NULL: the defaults.
@@ -423,7 +432,7 @@ SNOW_API snow_status snow_aggregate_growth(const snow_grid *grid, snow_aggregate
  * contact rule and sticking hold; noise reduction is not looked at.
  *
  * @param grid a grid of this model.
- * @param walks how many, at least 1.
+ * @param walks how many, 1 to 2^32 − 1.
  * @param random_seed chooses the walks; streams never meet those of the growth.
  * @param chances receives the sites that were hit, by y, then x (in space by z
  *        first); NULL: only the count is wanted, the walks are taken all the same.
@@ -431,7 +440,8 @@ SNOW_API snow_status snow_aggregate_growth(const snow_grid *grid, snow_aggregate
  * @param count receives how many there are; may be NULL unless chances is.
  * @return ::SNOW_OK, ::SNOW_ERROR_NULL, ::SNOW_ERROR_RANGE; ::SNOW_ERROR_BUFFER
  *         when capacity is too small; ::SNOW_ERROR_UNSUPPORTED for other scenes;
- *         ::SNOW_ERROR_AGGREGATE_FULL; ::SNOW_ERROR_NO_MEMORY,
+ *         ::SNOW_ERROR_AGGREGATE_PATH when 2^24 walkers in a row are lost;
+ *         ::SNOW_ERROR_FULL; ::SNOW_ERROR_NO_MEMORY,
  *         ::SNOW_ERROR_MEMORY_LIMIT. Cost: that of growing as many particles.
  */
 SNOW_API snow_status snow_aggregate_sample(const snow_grid *grid, uint64_t walks, uint64_t random_seed,

@@ -38,7 +38,7 @@ void snow_ahead_end(snow_ahead *ahead, snow_heap *heap)
 static void walk(snow_ahead *ahead, const snow_ground *ground, size_t i, size_t room)
 {
     snow_voyage *voyage = &ahead->voyage[i];
-    snow_draws_start(&voyage->draws, ahead->key, ahead->first + i);
+    snow_draws_start(&voyage->draws, ground->refill, ahead->key, ahead->first + i);
     voyage->diary.count = 0;
     voyage->diary.room = room;
     voyage->end = snow_flight(ground, &voyage->draws, &voyage->diary);

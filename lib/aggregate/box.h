@@ -58,24 +58,23 @@ static inline uint64_t *snow_box_row(const torus *self, int32_t y, int32_t z)
 
 static inline bool snow_box_has(const torus *self, snow_site site)
 {
-    return (snow_box_row(self, site.y, site.z)[site.x / 64] >> (site.x % 64) & 1) != 0;
+    return (snow_box_row(self, site.y, site.z)[(uint32_t)site.x / 64] >> ((uint32_t)site.x % 64) & 1) != 0;
 }
 
 /* 64 bits of a row from bit x on, round its end. */
 static inline uint64_t snow_box_read(const uint64_t *row, int32_t x)
 {
-    const uint64_t *word = row + x / 64;
-    int shift = x % 64;
-    return shift == 0 ? word[0] : word[0] >> shift | word[1] << (64 - shift);
+    const uint64_t *word = row + (uint32_t)x / 64;
+    uint32_t shift = (uint32_t)x % 64;
+    return word[0] >> shift | word[1] << 1 << (63 - shift);
 }
 
 static inline void snow_box_flip_words(uint64_t *row, int32_t x, uint64_t mask)
 {
-    uint64_t *word = row + x / 64;
-    int shift = x % 64;
+    uint64_t *word = row + (uint32_t)x / 64;
+    uint32_t shift = (uint32_t)x % 64;
     word[0] ^= mask << shift;
-    if (shift != 0)
-        word[1] ^= mask >> (64 - shift);
+    word[1] ^= mask >> 1 >> (63 - shift);
 }
 
 /* Flips bits of a row from bit x on, round its end, and what repeats them. */

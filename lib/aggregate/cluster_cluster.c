@@ -72,9 +72,9 @@ static void follow_drag(clusters *self)
     if (++self->merged < self->lives / 2)
         return;
     self->merged = 0;
-    self->least_drag = self->cluster[self->live[0]].drag;
+    self->least_drag = self->measures[self->live[0]].drag;
     for (uint32_t i = 1; i < self->lives; i++) {
-        double drag = self->cluster[self->live[i]].drag;
+        double drag = self->measures[self->live[i]].drag;
         self->least_drag = drag < self->least_drag ? drag : self->least_drag;
     }
 }
@@ -83,7 +83,7 @@ static uint32_t choose(const clusters *self, snow_stream *stream, double mobilit
 {
     for (;;) {
         uint32_t number = self->live[snow_stream_below(stream, self->lives)];
-        if (mobility == 0 || snow_stream_uniform(stream) * self->cluster[number].drag < self->least_drag)
+        if (mobility == 0 || snow_stream_uniform(stream) * self->measures[number].drag < self->least_drag)
             return number;
     }
 }
@@ -97,7 +97,7 @@ static snow_status move_one(snow_grid *grid, bool *merged)
     uint32_t number = choose(self, &stream, model->params.mobility);
     int direction = (int)snow_stream_below(&stream, (uint32_t)snow_box_directions(&self->box));
     uint32_t count;
-    snow_status status = snow_clusters_move(self, &grid->heap, number, direction, &count);
+    snow_status status = snow_clusters_move(self, &grid->heap, number, direction, model->params.sticking < 1, &count);
     if (status != SNOW_OK)
         return status;
     model->walkers++;
@@ -169,9 +169,8 @@ int32_t snow_aggregate_box(const snow_grid *grid)
     return clusters_of(grid)->box.side;
 }
 
-static double gyration_of(const cluster *it)
+static double gyration_of(const cluster_measures *it, double mass)
 {
-    double mass = it->mass;
     double x = (double)it->sum[0] / mass;
     double y = (double)it->sum[1] / mass;
     double z = (double)it->sum[2] / mass;
@@ -183,8 +182,8 @@ size_t snow_aggregate_list_clusters(const snow_grid *grid, snow_aggregate_cluste
 {
     const clusters *self = clusters_of(grid);
     for (uint32_t i = 0; i < self->lives && list != NULL; i++) {
-        const cluster *it = &self->cluster[self->live[i]];
-        list[i] = (snow_aggregate_cluster){it->mass, gyration_of(it)};
+        uint32_t mass = self->cluster[self->live[i]].mass;
+        list[i] = (snow_aggregate_cluster){mass, gyration_of(&self->measures[self->live[i]], mass)};
     }
     return self->lives;
 }
@@ -279,9 +278,9 @@ static snow_status load_clusters(snow_grid *grid, snow_source *source, uint8_t *
         status = load_cluster(self, source, seen, aggregate_of(grid)->params.mobility);
     if (status != SNOW_OK)
         return status;
-    double least = self->cluster[self->live[0]].drag;
+    double least = self->measures[self->live[0]].drag;
     for (uint32_t i = 0; i < self->lives; i++)
-        least = fmin(least, self->cluster[self->live[i]].drag);
+        least = fmin(least, self->measures[self->live[i]].drag);
     tell(grid);
     bool sound = self->filled == self->particles && self->least_drag >= 1 && self->least_drag <= least;
     return sound ? SNOW_OK : SNOW_ERROR_DAMAGED;

@@ -37,6 +37,7 @@ static snow_status get_lists(clusters *self, snow_heap *heap)
         {(void **)&self->member, 3 * particles, sizeof *self->member},
         {(void **)&self->spare, 3 * particles, sizeof *self->spare},
         {(void **)&self->cluster, particles, sizeof *self->cluster},
+        {(void **)&self->measures, particles, sizeof *self->measures},
         {(void **)&self->live, particles, sizeof *self->live},
         {(void **)&self->large, particles, sizeof *self->large},
         {(void **)&self->touched, particles + 6, sizeof *self->touched},
@@ -79,6 +80,7 @@ void snow_clusters_end(clusters *self, snow_heap *heap)
     snow_heap_put(heap, self->member);
     snow_heap_put(heap, self->spare);
     snow_heap_put(heap, self->cluster);
+    snow_heap_put(heap, self->measures);
     snow_heap_put(heap, self->live);
     snow_heap_put(heap, self->large);
     snow_heap_put(heap, self->touched);
@@ -155,10 +157,11 @@ void snow_clusters_count(clusters *self, cluster *to, uint32_t particle)
     int64_t x = at.x;
     int64_t y = at.y;
     int64_t z = at.z;
-    to->sum[0] += x;
-    to->sum[1] += y;
-    to->sum[2] += z;
-    to->squares += (uint64_t)(x * x + y * y + z * z);
+    cluster_measures *measures = &self->measures[to - self->cluster];
+    measures->sum[0] += x;
+    measures->sum[1] += y;
+    measures->sum[2] += z;
+    measures->squares += (uint64_t)(x * x + y * y + z * z);
     self->member[to->first + to->mass++] = particle;
     self->home[particle] = (uint32_t)(to - self->cluster);
 }
@@ -172,8 +175,8 @@ static void settle_origin(const clusters *self, cluster *of)
 cluster *snow_clusters_open(clusters *self, uint32_t number, uint32_t mass, snow_site origin, double mobility)
 {
     cluster *it = &self->cluster[number];
-    *it = (cluster){.first = self->filled, .capacity = mass, .place = self->lives, .origin = origin,
-                    .drag = snow_power(mass, mobility)};
+    *it = (cluster){.first = self->filled, .capacity = mass, .place = self->lives, .origin = origin};
+    self->measures[number] = (cluster_measures){.drag = snow_power(mass, mobility)};
     self->filled += mass;
     self->live[self->lives++] = number;
     return it;
@@ -243,10 +246,11 @@ static void find_hits(clusters *self, const cluster *moving, uint32_t mark, int 
     for (uint32_t i = 0; i < moving->mass; i++) {
         snow_site site = snow_clusters_site(self, moving, self->position[self->member[moving->first + i]]);
         snow_site next = snow_box_next(&self->box, site, direction);
-        if (*owner_at(self, next) == mark)
-            continue;
-        if (snow_box_has(&self->box, next))
+        if (snow_box_has(&self->box, next)) {
+            if (*owner_at(self, next) == mark)
+                continue;
             note_hit(self, next);
+        }
         for (int side = 0; side < snow_box_directions(&self->box); side++) {
             snow_site beside = snow_box_next(&self->box, next, side);
             if (snow_box_has(&self->box, beside) && *owner_at(self, beside) != mark)
@@ -297,7 +301,8 @@ static snow_status give_shape(clusters *self, snow_heap *heap, cluster *it)
     return snow_shape_make(&self->maker, heap, &self->box, self->scratch, it->mass, &it->shape);
 }
 
-snow_status snow_clusters_move(clusters *self, snow_heap *heap, uint32_t number, int direction, uint32_t *count)
+snow_status snow_clusters_move(clusters *self, snow_heap *heap, uint32_t number, int direction, bool may_rest,
+                               uint32_t *count)
 {
     cluster *moving = &self->cluster[number];
     uint32_t mark = number + 1;
@@ -311,7 +316,7 @@ snow_status snow_clusters_move(clusters *self, snow_heap *heap, uint32_t number,
         snow_shape_find_touched(moving->shape, &self->box, corner, direction, note_hit, self);
     else
         find_hits(self, moving, mark, direction);
-    bool blocked = self->hits > 0 && keep_obstructions(self, mark, direction);
+    bool blocked = may_rest && self->hits > 0 && keep_obstructions(self, mark, direction);
     *count = 0;
     for (size_t i = 0; i < self->hits; i++)
         *count = list_touched(self, *count, snow_clusters_at(self, self->hit[i]) - 1);
@@ -359,27 +364,42 @@ static void widen(clusters *self, cluster *it, uint32_t more)
     self->filled += capacity;
 }
 
-/* What must be added to the small cluster's positions to have them in the large one's frame: the two hang
-   together where the small one's first member that touches does. */
-static snow_site find_shift(const clusters *self, const cluster *large, const cluster *small)
+/* A site of the large cluster beside a particle of the small one. */
+typedef struct contact {
+    snow_site position; /* of that particle */
+    snow_site site;
+    int direction; /* from it to the site */
+} contact;
+
+static contact find_contact(const clusters *self, const cluster *small)
 {
     for (uint32_t i = 0; i < small->mass; i++) {
         snow_site position = self->position[self->member[small->first + i]];
         snow_site site = snow_clusters_site(self, small, position);
         for (int side = 0; side < snow_box_directions(&self->box); side++) {
             snow_site next = snow_box_next(&self->box, site, side);
-            if (!snow_box_has(&self->box, next) || !may_hold(self, large, next))
-                continue;
-            uint32_t contact = find_member(self, large, next);
-            if (contact == large->mass)
-                continue;
-            snow_site there = self->position[self->member[large->first + contact]];
-            snow_site step = snow_box_steps[side];
-            return (snow_site){there.x - step.x - position.x, there.y - step.y - position.y,
-                               there.z - step.z - position.z};
+            if (snow_box_has(&self->box, next) && snow_shape_maker_has(&self->maker, &self->box, next))
+                return (contact){position, next, side};
         }
     }
-    return (snow_site){0, 0, 0};
+    return (contact){small->least, snow_clusters_site(self, small, small->least), 0};
+}
+
+/* What must be added to the small cluster's positions to have them in the large one's frame. */
+static snow_site find_shift(clusters *self, const cluster *large, const cluster *small)
+{
+    for (uint32_t i = 0; i < large->mass; i++)
+        snow_shape_maker_add(&self->maker, &self->box,
+                             snow_clusters_site(self, large, self->position[self->member[large->first + i]]));
+    contact found = find_contact(self, small);
+    snow_shape_maker_clear(&self->maker);
+    uint32_t touched = find_member(self, large, found.site);
+    if (touched == large->mass)
+        return (snow_site){0, 0, 0};
+    snow_site there = self->position[self->member[large->first + touched]];
+    snow_site step = snow_box_steps[found.direction];
+    return (snow_site){there.x - step.x - found.position.x, there.y - step.y - found.position.y,
+                       there.z - step.z - found.position.z};
 }
 
 static void strike_out(clusters *self, cluster *it, bool large)
@@ -437,7 +457,7 @@ uint32_t snow_clusters_merge(clusters *self, snow_heap *heap, uint32_t a, uint32
         self->large[self->larges++] = number;
     }
     settle_origin(self, large);
-    large->drag = snow_power(large->mass, mobility);
+    self->measures[number].drag = snow_power(large->mass, mobility);
     self->largest = large->mass > self->largest ? large->mass : self->largest;
     return number;
 }

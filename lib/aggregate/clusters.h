@@ -5,20 +5,24 @@
 #include "aggregate/box.h"
 #include "aggregate/shape.h"
 
+/* What a move looks at: one line of cache. */
 typedef struct cluster {
-    uint32_t mass;     /* 0: it is gone */
-    uint32_t first;    /* of its members in the list of members */
-    uint32_t capacity; /* members that have room there */
+    uint32_t mass;  /* 0: it is gone */
+    uint32_t first; /* of its members in the list of members */
+    shape *shape;   /* of a large cluster that has moved since it grew */
+    snow_site origin;   /* what is added to its particles' positions; least + origin lies in the box */
+    snow_site least;    /* of its particles' positions */
+    snow_site greatest;
+    uint32_t capacity; /* members that have room in the list */
     uint32_t place;    /* in the list of clusters that live */
     uint32_t rank;     /* in the list of large clusters */
-    snow_site origin;  /* what is added to its particles' positions; least + origin lies in the box */
-    snow_site least;   /* of its particles' positions */
-    snow_site greatest;
+} cluster;
+
+typedef struct cluster_measures {
     int64_t sum[3];   /* of its particles' positions */
     uint64_t squares; /* of their lengths */
     double drag;      /* mass^mobility: moves are the rarer the greater it is */
-    shape *shape;     /* of a large cluster that has moved since it grew */
-} cluster;
+} cluster_measures;
 
 /* Small clusters mark their sites and move site by site; large ones are looked for, and move by their shapes. */
 enum { SNOW_LARGE_CLUSTER = 12 };
@@ -33,6 +37,7 @@ typedef struct clusters {
     uint32_t *spare;     /* as much again, to close the gaps */
     uint32_t filled;     /* of member */
     cluster *cluster;    /* by number */
+    cluster_measures *measures;
     uint32_t *live;      /* the clusters that there are */
     uint32_t lives;
     uint32_t *large;
@@ -60,8 +65,10 @@ uint32_t snow_clusters_at(const clusters *self, snow_site site);
 snow_site snow_clusters_site(const clusters *self, const cluster *of, snow_site position);
 
 /* Moves a cluster one step, if nothing is in its way. Lists in `touched` the clusters that it then
-   touches with its front, or that were in the way; *count: how many. */
-snow_status snow_clusters_move(clusters *self, snow_heap *heap, uint32_t number, int direction, uint32_t *count);
+   touches with its front, or that were in the way; *count: how many. `may_rest`: clusters that touch can be
+   apart, so that something may be in the way. */
+snow_status snow_clusters_move(clusters *self, snow_heap *heap, uint32_t number, int direction, bool may_rest,
+                               uint32_t *count);
 
 /* Lists the clusters that a single particle touches; returns how many. */
 uint32_t snow_clusters_find_neighbours(clusters *self, uint32_t number);

@@ -5,23 +5,33 @@
 
 #include "base/random.h"
 
+#include <snowgrowth/options.h>
+
 #include <stdint.h>
 
 enum { SNOW_DRAWS_HALF = 8 };
 
-typedef struct snow_draws {
+typedef struct snow_draws snow_draws;
+
+/* The next eight numbers, in place of those from `first` on. */
+typedef void (*snow_draws_refill)(snow_draws *draws, uint32_t first);
+
+struct snow_draws {
     uint64_t number[2 * SNOW_DRAWS_HALF];
     uint32_t next;
     uint32_t block; /* counter of the first block to come */
     uint64_t key;
     uint64_t walker;
-} snow_draws;
+    snow_draws_refill refill;
+};
+
+/* All give the same numbers. */
+void snow_draws_refill_baseline(snow_draws *draws, uint32_t first);
+void snow_draws_refill_avx2(snow_draws *draws, uint32_t first);
+snow_draws_refill snow_draws_choose(snow_isa isa);
 
 /* The first numbers of a stream. */
-void snow_draws_start(snow_draws *draws, uint64_t key, uint64_t walker);
-
-/* The next eight numbers, in place of those from `first` on. */
-void snow_draws_refill(snow_draws *draws, uint32_t first);
+void snow_draws_start(snow_draws *draws, snow_draws_refill refill, uint64_t key, uint64_t walker);
 
 static inline uint64_t snow_draws_next(snow_draws *draws)
 {
@@ -29,7 +39,7 @@ static inline uint64_t snow_draws_next(snow_draws *draws)
     uint64_t number = draws->number[here];
     draws->next = (here + 1) % (2 * SNOW_DRAWS_HALF);
     if (draws->next % SNOW_DRAWS_HALF == 0)
-        snow_draws_refill(draws, draws->next ^ SNOW_DRAWS_HALF);
+        draws->refill(draws, draws->next ^ SNOW_DRAWS_HALF);
     return number;
 }
 

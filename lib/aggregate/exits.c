@@ -80,7 +80,7 @@ static snow_exit_step step_to(snow_aggregate_lattice lattice, int32_t radius, in
         if (lattice == SNOW_AGGREGATE_CUBIC)
             way[(axis + 2) % 3] = b;
     }
-    return (snow_exit_step){.own = {(int8_t)way[0], (int8_t)way[1], (int8_t)way[2]}};
+    return (snow_exit_step){.way = {{(int8_t)way[0], (int8_t)way[1], (int8_t)way[2]}}};
 }
 
 static int32_t magnitude(int32_t x)
@@ -126,7 +126,7 @@ static void make_steps(snow_aggregate_lattice lattice, int32_t radius, const dou
         const snow_exit_step *other = &step[alias->other[i]];
         step[i].threshold = alias->threshold[i];
         for (int axis = 0; axis < 3; axis++)
-            step[i].other[axis] = other->own[axis];
+            step[i].way[1][axis] = other->way[0][axis];
     }
 }
 
@@ -148,14 +148,14 @@ static void make_exits(snow_aggregate_lattice lattice, int32_t radius, const dou
     for (int32_t a = 0; a < radius; a++) {
         for (int32_t b = 0; b <= (is_cubic ? a : 0); b++) {
             alias->weight[outcomes] = chance[outcomes] * images(lattice, a, b);
-            exit[outcomes++].own = (uint16_t)(is_cubic ? 256 * a + b : a);
+            exit[outcomes++].outcome[0] = (uint16_t)(is_cubic ? 256 * a + b : a);
         }
     }
     snow_alias_cut(alias, outcomes);
     uint32_t columns = snow_alias_columns(outcomes);
     for (uint32_t i = 0; i < columns; i++) {
         exit[i].threshold = alias->threshold[i];
-        exit[i].other = exit[alias->other[i]].own;
+        exit[i].outcome[1] = exit[alias->other[i]].outcome[0];
     }
 }
 

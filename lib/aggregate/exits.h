@@ -19,15 +19,13 @@
    times 256 plus the smaller one. */
 typedef struct snow_exit {
     uint32_t threshold;
-    uint16_t own;
-    uint16_t other;
+    uint16_t outcome[2]; /* below it, and from it on: an index costs no branch */
 } snow_exit;
 
 /* A column of one for all sides, for small regions: the way to the site. */
 typedef struct snow_exit_step {
     uint32_t threshold;
-    int8_t own[3];
-    int8_t other[3];
+    int8_t way[2][3];
 } snow_exit_step;
 
 typedef struct snow_exit_table {

@@ -67,7 +67,7 @@ COPIED int32_t folded_hexagonal(int32_t q, int32_t r, int32_t width)
 COPIED snow_site fold(const snow_source_of_walkers *source, snow_aggregate_lattice lattice, snow_site site)
 {
     if (lattice == SNOW_AGGREGATE_HEXAGONAL) {
-        int32_t r = source->lid > 0 && site.y > source->lid ? 2 * source->lid - site.y : site.y;
+        int32_t r = source->lid >= 0 && site.y > source->lid ? 2 * source->lid - site.y : site.y;
         /* The mirror through a row takes X, not q, to itself. */
         return (snow_site){folded_hexagonal(site.x + (site.y - r) / 2, r, source->width), r, 0};
     }
@@ -75,7 +75,7 @@ COPIED snow_site fold(const snow_source_of_walkers *source, snow_aggregate_latti
     int32_t *up = lattice == SNOW_AGGREGATE_CUBIC ? &site.z : &site.y;
     if (lattice == SNOW_AGGREGATE_CUBIC)
         site.y = folded(site.y, source->depth);
-    if (source->lid > 0 && *up > source->lid)
+    if (source->lid >= 0 && *up > source->lid)
         *up = 2 * source->lid + 1 - *up;
     return site;
 }
@@ -84,11 +84,11 @@ COPIED snow_site fold(const snow_source_of_walkers *source, snow_aggregate_latti
 COPIED snow_site step(const snow_exit_table *table, snow_aggregate_lattice lattice, snow_site site, uint64_t bits)
 {
     const snow_exit_step *step = &table->step[(uint32_t)bits & table->step_mask];
-    bool own = (uint32_t)(bits >> 32) < step->threshold;
-    site.x += own ? step->own[0] : step->other[0];
-    site.y += own ? step->own[1] : step->other[1];
+    const int8_t *way = step->way[(uint32_t)(bits >> 32) >= step->threshold];
+    site.x += way[0];
+    site.y += way[1];
     if (lattice == SNOW_AGGREGATE_CUBIC)
-        site.z += own ? step->own[2] : step->other[2];
+        site.z += way[2];
     return site;
 }
 
@@ -100,7 +100,7 @@ COPIED snow_site jump(const snow_exit_table *table, snow_aggregate_lattice latti
     const snow_exit *exit = &table->exit[low & table->exit_mask];
     int32_t radius = table->radius;
     if (lattice == SNOW_AGGREGATE_SQUARE) {
-        int32_t along = high < exit->threshold ? exit->own : exit->other;
+        int32_t along = exit->outcome[high >= exit->threshold];
         int32_t mirror = -(int32_t)(low >> 31);
         int32_t turn = -(int32_t)(low >> 30 & 1);
         int32_t back = -(int32_t)(low >> 29 & 1);
@@ -113,7 +113,7 @@ COPIED snow_site jump(const snow_exit_table *table, snow_aggregate_lattice latti
     }
     uint64_t product = (uint64_t)high * 6;
     uint32_t side = (uint32_t)(product >> 32);
-    int32_t offset = (uint32_t)product < exit->threshold ? exit->own : exit->other;
+    int32_t offset = exit->outcome[(uint32_t)product >= exit->threshold];
     if (lattice == SNOW_AGGREGATE_HEXAGONAL) {
         site.x += radius * corner_q[side] + offset * side_q[side];
         site.y += radius * corner_r[side] + offset * side_r[side];

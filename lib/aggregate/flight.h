@@ -13,6 +13,7 @@ typedef struct snow_ground {
     snow_aggregate_contact contact;
     double stick;
     bool careful; /* walkers may go on from special sites: stick < 1, entry, or obstacles */
+    snow_draws_refill refill;
     snow_source_of_walkers source;
     snow_exits exits;
     snow_plane_map plane; /* the one or the other */

@@ -160,6 +160,7 @@ snow_status snow_growth_start(snow_growth **result, snow_heap *heap, const snow_
     growth->ground = (snow_ground){
         .contact = rules->contact,
         .stick = rules->stick,
+        .refill = snow_draws_choose(rules->isa),
         .careful = rules->contact == SNOW_AGGREGATE_ENTRY || rules->stick < 1 || rules->has_obstacles,
         .source = {.lattice = rules->lattice, .width = rules->width, .depth = rules->depth, .lid = rules->lid},
     };
@@ -222,7 +223,7 @@ static snow_status land(snow_growth *growth, snow_heap *heap, const snow_growth_
 static snow_site walk(const snow_growth *growth, uint64_t key, uint64_t walker, snow_diary *diary)
 {
     snow_draws draws;
-    snow_draws_start(&draws, key, walker);
+    snow_draws_start(&draws, growth->ground.refill, key, walker);
     return snow_flight(&growth->ground, &draws, diary);
 }
 

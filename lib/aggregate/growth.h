@@ -21,13 +21,14 @@ typedef struct snow_growth_rules {
     double stick;       /* 0 < stick <= 1 */
     bool has_obstacles; /* snow_growth_obstruct() may be called */
     uint64_t seed;      /* key of the streams */
+    snow_isa isa;       /* settled */
     /* A vessel: 0 <= x < width (space: 0 <= y < depth), rows (layers) from 0
        on, above a filled floor in row -1; walls are mirrors. Square and cubic:
        halfway between sites, so that a step through one is refused. Hexagonal:
        0 <= X <= 2 width - 1, X = 2q + r, with mirrors at both ends, on sites. */
     int32_t width; /* 0: no vessel */
     int32_t depth;
-    int32_t lid; /* the highest row, a mirror above it (hexagonal: through it); 0: none, walkers come from infinity */
+    int32_t lid; /* the highest row, a mirror above it (hexagonal: through it); negative: none, walkers come from infinity */
 } snow_growth_rules;
 
 snow_status snow_growth_start(snow_growth **growth, snow_heap *heap, const snow_growth_rules *rules);

@@ -14,8 +14,9 @@ static jumps *jumps_of(const snow_grid *grid)
     return aggregate_of(grid)->state;
 }
 
-static snow_growth_rules rules_of(const aggregate *model)
+static snow_growth_rules rules_of(const snow_grid *grid)
 {
+    const aggregate *model = aggregate_of(grid);
     const snow_aggregate_params *params = &model->params;
     snow_growth_rules rules = {
         .lattice = params->lattice,
@@ -23,6 +24,7 @@ static snow_growth_rules rules_of(const aggregate *model)
         .stick = params->sticking,
         .has_obstacles = model->obstacles.count > 0,
         .seed = params->random_seed,
+        .isa = grid->options.isa,
     };
     if (params->scene == SNOW_AGGREGATE_LINE) {
         rules.width = params->width;
@@ -39,7 +41,7 @@ static snow_status create(snow_grid *grid)
     if (self == NULL)
         return grid->heap.refusal;
     model->state = self;
-    snow_growth_rules rules = rules_of(model);
+    snow_growth_rules rules = rules_of(grid);
     snow_status status = snow_growth_start(&self->growth, &grid->heap, &rules);
     for (uint64_t i = 0; i < model->obstacles.count && status == SNOW_OK; i++) {
         snow_site obstacle = snow_sites_at(&model->obstacles, i);

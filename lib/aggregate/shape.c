@@ -40,7 +40,7 @@ static uint64_t bit_of(snow_site site)
     return UINT64_C(1) << (site.x % 64);
 }
 
-static bool is_own(const shape_maker *self, const torus *box, snow_site site)
+bool snow_shape_maker_has(const shape_maker *self, const torus *box, snow_site site)
 {
     return (self->own[word_of(self, box, site)] & bit_of(site)) != 0;
 }
@@ -53,7 +53,7 @@ static void note(shape_maker *self, const torus *box, snow_site site)
     self->list[word] |= bit_of(site);
 }
 
-static void note_own(shape_maker *self, const torus *box, snow_site site)
+void snow_shape_maker_add(shape_maker *self, const torus *box, snow_site site)
 {
     size_t word = word_of(self, box, site);
     if (self->own[word] == 0)
@@ -61,13 +61,19 @@ static void note_own(shape_maker *self, const torus *box, snow_site site)
     self->own[word] |= bit_of(site);
 }
 
+void snow_shape_maker_clear(shape_maker *self)
+{
+    for (; self->used_count > 0; self->used_count--)
+        self->own[self->used[self->used_count - 1]] = 0;
+}
+
 /* A step takes the sites before the front and frees those at the rear. */
 static void note_changes(shape_maker *self, const torus *box, snow_site site, int direction)
 {
     snow_site before = snow_box_next(box, site, direction);
-    if (!is_own(self, box, before))
+    if (!snow_shape_maker_has(self, box, before))
         note(self, box, before);
-    if (!is_own(self, box, snow_box_next(box, site, direction ^ 1)))
+    if (!snow_shape_maker_has(self, box, snow_box_next(box, site, direction ^ 1)))
         note(self, box, site);
 }
 
@@ -75,12 +81,12 @@ static void note_changes(shape_maker *self, const torus *box, snow_site site, in
 static void note_touched(shape_maker *self, const torus *box, snow_site site, int direction)
 {
     snow_site before = snow_box_next(box, site, direction);
-    if (is_own(self, box, before))
+    if (snow_shape_maker_has(self, box, before))
         return;
     note(self, box, before);
     for (int side = 0; side < snow_box_directions(box); side++) {
         snow_site beside = snow_box_next(box, before, side);
-        if (!is_own(self, box, beside))
+        if (!snow_shape_maker_has(self, box, beside))
             note(self, box, beside);
     }
 }
@@ -141,11 +147,10 @@ snow_status snow_shape_make(shape_maker *self, snow_heap *heap, const torus *box
 {
     shape ends = {{0}, {0}};
     for (uint32_t i = 0; i < count; i++)
-        note_own(self, box, sites[i]);
+        snow_shape_maker_add(self, box, sites[i]);
     self->count = 0;
     snow_status status = make_lists(self, heap, box, sites, count, &ends);
-    for (; self->used_count > 0; self->used_count--)
-        self->own[self->used[self->used_count - 1]] = 0;
+    snow_shape_maker_clear(self);
     if (status != SNOW_OK)
         return status;
     size_t size = sizeof **made + self->count * sizeof(shape_word);

@@ -23,7 +23,7 @@ typedef struct shape {
 
 /* Scratch to make shapes with. */
 typedef struct shape_maker {
-    uint64_t *own;  /* a box of bits: the cluster */
+    uint64_t *own;  /* a box of bits: a set of sites */
     uint64_t *list; /* a box of bits: the list that is being made */
     uint32_t *used; /* words of `own` that are not 0 */
     uint32_t *hit;  /* words of `list` that are not 0 */
@@ -38,6 +38,11 @@ typedef struct shape_maker {
 
 snow_status snow_shape_maker_start(shape_maker *self, snow_heap *heap, const torus *box);
 void snow_shape_maker_end(shape_maker *self, snow_heap *heap);
+
+/* A set of sites of the box, empty between two uses. */
+void snow_shape_maker_add(shape_maker *self, const torus *box, snow_site site);
+bool snow_shape_maker_has(const shape_maker *self, const torus *box, snow_site site);
+void snow_shape_maker_clear(shape_maker *self);
 
 /* The shape of sites that are given from the cluster's corner, within the box. */
 snow_status snow_shape_make(shape_maker *self, snow_heap *heap, const torus *box, const snow_site *sites,

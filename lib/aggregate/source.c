@@ -152,7 +152,7 @@ static int32_t column_in_row(const snow_source_of_walkers *source, int32_t row, 
 
 static snow_site launch_in_vessel(const snow_source_of_walkers *source, snow_draws *draws)
 {
-    int32_t row = source->lid > 0 && source->rim > source->lid ? source->lid : source->rim;
+    int32_t row = source->lid >= 0 && source->rim > source->lid ? source->lid : source->rim;
     if (!is_in_space(source))
         return (snow_site){column_in_row(source, row, draws), row, 0};
     int32_t x = (int32_t)snow_draws_below(draws, (uint32_t)source->width);

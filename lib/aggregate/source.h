@@ -27,7 +27,7 @@
 
 typedef struct snow_source_of_walkers {
     snow_aggregate_lattice lattice;
-    int32_t width, depth, lid; /* of a vessel; width 0: none, walkers come from all around */
+    int32_t width, depth, lid; /* of a vessel; width 0: none, walkers come from all around; lid negative: none */
     int32_t rim;               /* all special sites are nearer to the origin, or lower, than this */
     int32_t reach;             /* the same in lattice distance */
     int64_t far;               /* beyond this a walker is sent back */

@@ -84,6 +84,20 @@ static snow_status cover(snow_space_map *map, snow_heap *heap, snow_space_box bo
     return SNOW_OK;
 }
 
+static void make_distances(snow_space_map *map)
+{
+    for (int from = 0; from < 16; from++) {
+        for (int side = 0; side < 9; side++) {
+            for (int place = 0; place < 16; place++) {
+                int i = place % 4 + 4 * (side % 3 - 1) - from % 4;
+                int j = place / 4 + 4 * (side / 3 - 1) - from / 4;
+                int64_t d = apart(i, j, 0);
+                map->apart[from][side][place] = (uint8_t)at_most(d, NEAR_REACH + 1);
+            }
+        }
+    }
+}
+
 snow_status snow_space_map_start(snow_space_map *map, snow_heap *heap, const snow_exits *exits, bool keeps_matter,
                                  snow_space_box box)
 {
@@ -96,6 +110,7 @@ snow_status snow_space_map_start(snow_space_map *map, snow_heap *heap, const sno
         map->tile_class[d] = (uint8_t)snow_exits_class(exits, d <= 1 ? 4 * NEAR_REACH + 1 : 16 * (d - 1) + 1);
         map->cube_class[d] = (uint8_t)snow_exits_class(exits, d <= 1 ? 16 * TILE_REACH + 1 : 64 * (d - 1) + 1);
     }
+    make_distances(map);
     map->print = snow_heap_get_raw(heap, 64, sizeof *map->print);
     snow_status status = map->print == NULL ? heap->refusal : cover(map, heap, box);
     if (status != SNOW_OK) {
@@ -173,15 +188,32 @@ static range range_round(int64_t i, int64_t j, int64_t k, int64_t reach, const s
                     at_most(k + reach, box->layers * parts / wholes - 1)}};
 }
 
+/* A layer of 4 x 4 blocks at a time: distances in a layer are known, and none is
+   less than that of the layers. */
+static void lower_page(snow_space_page *page, const uint8_t *apart_in_layer, int64_t first_layer,
+                       int64_t k)
+{
+    for (int layer = 0; layer < 4; layer++) {
+        uint8_t least = (uint8_t)magnitude(first_layer + layer - k);
+        if (least > NEAR_REACH)
+            continue;
+        uint8_t *near = page->near + 16 * layer;
+        for (int place = 0; place < 16; place++) {
+            uint8_t d = apart_in_layer[place] > least ? apart_in_layer[place] : least;
+            near[place] = near[place] < d ? near[place] : d;
+        }
+    }
+}
+
 /* The block (i, j, k) has got its first special site. */
 static void spread_near(snow_space_map *map, int64_t i, int64_t j, int64_t k)
 {
-    range all = range_round(i, j, k, NEAR_REACH, &map->box, 4, 1);
-    for (int64_t z = all.first[2]; z <= all.last[2]; z++) {
-        for (int64_t y = all.first[1]; y <= all.last[1]; y++) {
-            for (int64_t x = all.first[0]; x <= all.last[0]; x++) {
-                uint8_t *near = near_at(map, x, y, z);
-                *near = (uint8_t)at_most(*near, apart(x - i, y - j, z - k));
+    range tiles = range_round(i / 4, j / 4, k / 4, 1, &map->box, 1, 1);
+    for (int64_t z = tiles.first[2]; z <= tiles.last[2]; z++) {
+        for (int64_t y = tiles.first[1]; y <= tiles.last[1]; y++) {
+            for (int64_t x = tiles.first[0]; x <= tiles.last[0]; x++) {
+                int64_t side = (y - j / 4 + 1) * 3 + x - i / 4 + 1;
+                lower_page(page_with(map, 4 * x, 4 * y, 4 * z), map->apart[j % 4 * 4 + i % 4][side], 4 * z, k);
             }
         }
     }
