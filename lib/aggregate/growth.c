@@ -69,29 +69,33 @@ static snow_space_box space_box(const snow_source_of_walkers *source)
                             (uint32_t)(whole(source->depth, UNIT) / TILE), (uint32_t)(up / TILE)};
 }
 
+static snow_status widen(snow_growth *growth, snow_heap *heap, const snow_source_of_walkers *source)
+{
+    snow_ground *ground = &growth->ground;
+    if (is_in_space(growth)) {
+        snow_space_box box = space_box(source);
+        return box.layers == ground->space.box.layers ? SNOW_OK : snow_space_map_widen(&ground->space, heap, box);
+    }
+    snow_plane_box box = plane_box(source);
+    return box.rows == ground->plane.box.rows ? SNOW_OK : snow_plane_map_widen(&ground->plane, heap, box);
+}
+
 /* Source and map for a cluster that reaches so far. */
 static snow_status fit(snow_growth *growth, snow_heap *heap, int64_t farthest)
 {
-    snow_ground *ground = &growth->ground;
-    snow_source_of_walkers source = ground->source;
+    snow_source_of_walkers source = growth->ground.source;
     snow_source_fit(&source, farthest);
     snow_status status = SNOW_OK;
-    if (is_in_space(growth)) {
-        snow_space_box box = space_box(&source);
-        if (box.layers != ground->space.box.layers)
-            status = snow_space_map_widen(&ground->space, heap, box);
-    } else {
-        snow_plane_box box = plane_box(&source);
-        if (box.rows != ground->plane.box.rows)
-            status = snow_plane_map_widen(&ground->plane, heap, box);
+    if (source.rim != growth->ground.source.rim) {
+        snow_ahead_pause(&growth->ahead);
+        status = widen(growth, heap, &source);
+        if (status == SNOW_OK)
+            growth->ground.source = source;
+        snow_ahead_resume(&growth->ahead);
     }
-    if (status != SNOW_OK)
-        return status;
-    if (source.rim != ground->source.rim)
-        growth->ahead.epoch++;
-    ground->source = source;
-    growth->farthest = farthest;
-    return SNOW_OK;
+    if (status == SNOW_OK)
+        growth->farthest = farthest;
+    return status;
 }
 
 static snow_status add(snow_growth *growth, snow_heap *heap, snow_site site, bool obstacle)
@@ -189,7 +193,6 @@ snow_status snow_growth_clear(snow_growth *growth, snow_heap *heap, uint64_t see
 {
     end_map(growth, heap);
     growth->rules.seed = seed;
-    growth->ahead.epoch++;
     return start_map(growth, heap);
 }
 
@@ -209,15 +212,27 @@ snow_status snow_growth_obstruct(snow_growth *growth, snow_heap *heap, const sno
     return status;
 }
 
-/* Room is made before anyone hears of the walker: one that fails leaves no trace. */
-static snow_status land(snow_growth *growth, snow_heap *heap, const snow_growth_port *port, snow_site site, bool *filled,
-                        bool *goes_on)
+/* The walkers of one call. */
+typedef struct passage {
+    snow_growth *growth;
+    snow_heap *heap;
+    const snow_growth_port *port;
+    uint64_t left; /* to fill a site */
+    snow_status status;
+} passage;
+
+/* Room is made before anyone hears of the walker: one that fails leaves no trace.
+   True: another one may come. */
+static bool land(passage *all, snow_site site)
 {
-    *filled = port->fills == NULL || port->fills(port->context, site);
-    snow_status status = *filled ? add(growth, heap, site, false) : SNOW_OK;
-    if (status == SNOW_OK)
-        *goes_on = port->arrives(port->context, site, *filled);
-    return status;
+    const snow_growth_port *port = all->port;
+    bool fills = port->fills == NULL || port->fills(port->context, site);
+    if (fills)
+        all->status = add(all->growth, all->heap, site, false);
+    if (all->status != SNOW_OK)
+        return false;
+    all->left -= fills;
+    return port->arrives(port->context, site, fills) && all->left > 0;
 }
 
 static snow_site walk(const snow_growth *growth, uint64_t key, uint64_t walker, snow_diary *diary)
@@ -227,56 +242,40 @@ static snow_site walk(const snow_growth *growth, uint64_t key, uint64_t walker, 
     return snow_flight(&growth->ground, &draws, diary);
 }
 
-/* Walkers one by one. */
-static snow_status run_alone(snow_growth *growth, snow_heap *heap, uint64_t most, uint64_t *walker,
-                             const snow_growth_port *port)
+static uint64_t run_alone(passage *all, uint64_t walker)
 {
     snow_diary none = {.question = NULL};
     bool goes_on = true;
-    while (most > 0 && goes_on) {
-        bool filled;
-        snow_site site = walk(growth, growth->rules.seed, *walker, &none);
-        snow_status status = land(growth, heap, port, site, &filled, &goes_on);
-        if (status != SNOW_OK)
-            return status;
-        most -= filled;
-        ++*walker;
-    }
-    return SNOW_OK;
+    for (; goes_on; walker++)
+        goes_on = land(all, walk(all->growth, all->growth->rules.seed, walker, &none));
+    return walker;
 }
 
-/* Walkers a batch at a time, all against the same cluster; then they land in
-   their order. One that asked what has another answer by then walks again. */
-static snow_status run_ahead(snow_growth *growth, snow_heap *heap, const snow_growth_crew *crew, uint64_t most,
-                             uint64_t *walker, const snow_growth_port *port)
+static bool land_in_turn(void *context, snow_site site)
 {
-    snow_ahead *ahead = &growth->ahead;
-    bool goes_on = true;
-    while (most > 0 && goes_on) {
-        snow_ahead_walk(ahead, &growth->ground, crew->loop, crew->context, growth->rules.seed, *walker);
-        uint64_t epoch = ahead->epoch;
-        for (size_t i = 0; i < ahead->batch && most > 0 && goes_on; i++) {
-            bool filled;
-            bool same = epoch == ahead->epoch;
-            snow_site site = snow_ahead_settle(ahead, &growth->ground, i, same);
-            snow_status status = land(growth, heap, port, site, &filled, &goes_on);
-            if (status != SNOW_OK)
-                return status;
-            most -= filled;
-            ++*walker;
-        }
-        snow_ahead_adapt(ahead);
-    }
-    return SNOW_OK;
+    return land(context, site);
+}
+
+static uint64_t run_ahead(passage *all, const snow_growth_crew *crew, uint64_t walker)
+{
+    snow_ahead *ahead = &all->growth->ahead;
+    ahead->ground = &all->growth->ground;
+    ahead->key = all->growth->rules.seed;
+    ahead->land = land_in_turn;
+    ahead->context = all;
+    return snow_ahead_run(ahead, crew->loop, crew->context, crew->threads, walker);
 }
 
 snow_status snow_growth_run(snow_growth *growth, snow_heap *heap, const snow_growth_crew *crew, uint64_t most,
                             uint64_t *walker, const snow_growth_port *port)
 {
-    if (crew->threads < 2)
-        return run_alone(growth, heap, most, walker, port);
-    snow_status status = snow_ahead_start(&growth->ahead, heap, crew->threads);
-    return status == SNOW_OK ? run_ahead(growth, heap, crew, most, walker, port) : status;
+    passage all = {growth, heap, port, most, SNOW_OK};
+    snow_status status = crew->threads < 2 ? SNOW_OK : snow_ahead_start(&growth->ahead, heap, crew->threads);
+    if (status != SNOW_OK || most == 0)
+        return status;
+    uint64_t next = crew->threads < 2 ? run_alone(&all, *walker) : run_ahead(&all, crew, *walker);
+    *walker = all.status == SNOW_OK ? next : next - 1;
+    return all.status;
 }
 
 snow_site snow_growth_probe(const snow_growth *growth, uint64_t key, uint64_t walker)

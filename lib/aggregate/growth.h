@@ -58,7 +58,8 @@ typedef struct snow_growth_crew {
 } snow_growth_crew;
 
 /* Sends out walkers from number *walker on, until `most` have filled a site or
-   one is the last. The port hears of them in their order, on this thread.
+   one is the last. The port hears of them in their order, from one thread at a
+   time: with several threads, of the loop's ones.
    *walker becomes the number of the next one. On failure the walkers before
    that one have arrived, and it has not. */
 snow_status snow_growth_run(snow_growth *growth, snow_heap *heap, const snow_growth_crew *crew, uint64_t most,

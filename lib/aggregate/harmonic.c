@@ -13,6 +13,8 @@
 #include "aggregate/potential.h"
 #include "aggregate/spd.h"
 
+#include <math.h>
+
 enum { MOST_UNKNOWNS = 4096, MOST_CELLS = 1 << 24 };
 
 /* Marks beside those of cells.h. */

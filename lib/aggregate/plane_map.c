@@ -82,9 +82,9 @@ static size_t tiles_of(snow_plane_box box)
 
 static snow_status cover(snow_plane_map *map, snow_heap *heap, snow_plane_box box)
 {
-    uintptr_t *tile = snow_heap_get_raw(heap, tiles_of(box), sizeof *tile);
-    uint8_t *patch = snow_heap_get_raw(heap, tiles_of(box), 16);
-    uint8_t *square = snow_heap_get_raw(heap, squares_of(box), 1);
+    _Atomic uintptr_t *tile = snow_heap_get_raw(heap, tiles_of(box), sizeof *tile);
+    _Atomic uint8_t *patch = snow_heap_get_raw(heap, tiles_of(box), 16);
+    _Atomic uint8_t *square = snow_heap_get_raw(heap, squares_of(box), 1);
     if (tile == NULL || patch == NULL || square == NULL) {
         snow_heap_put(heap, square);
         snow_heap_put(heap, patch);
@@ -92,9 +92,11 @@ static snow_status cover(snow_plane_map *map, snow_heap *heap, snow_plane_box bo
         return heap->refusal;
     }
     for (size_t i = 0; i < tiles_of(box); i++)
-        tile[i] = BEYOND;
-    memset(patch, BEYOND, tiles_of(box) * 16);
-    memset(square, BEYOND, squares_of(box));
+        atomic_init(&tile[i], BEYOND);
+    for (size_t i = 0; i < 16 * tiles_of(box); i++)
+        atomic_init(&patch[i], BEYOND);
+    for (size_t i = 0; i < squares_of(box); i++)
+        atomic_init(&square[i], BEYOND);
     map->box = box;
     map->width = box.columns * 64;
     map->height = box.rows * 64;
@@ -116,15 +118,18 @@ static snow_plane_matter nothing;
 
 static snow_plane_line *line_with(snow_plane_map *map, snow_plane_page *page, uint32_t i, uint32_t j)
 {
-    snow_plane_line **line = &page->line[j / 4 * 4 + i / 4];
-    if (*line == &nothing.line)
-        *line = snow_pool_take(&map->lines);
-    return *line;
+    uint32_t place = j / 4 * 4 + i / 4;
+    snow_plane_line *line = SNOW_MAP_GET(page->line[place]);
+    if (line == &nothing.line) {
+        line = snow_pool_take(&map->lines);
+        SNOW_MAP_PUT_ADDRESS(page->line[place], line);
+    }
+    return line;
 }
 
 static bool holds_special(const snow_plane_page *page)
 {
-    return memchr(page->near, 0, sizeof page->near) != NULL;
+    return memchr((const void *)page->near, 0, sizeof page->near) != NULL;
 }
 
 /* What each distance leaves free, at least. */
@@ -142,10 +147,9 @@ static void make_classes(snow_plane_map *map, const snow_exits *exits)
 
 static void make_distances(snow_plane_map *map)
 {
-    memset(map->apart, 255, sizeof map->apart);
     for (int j = -FAR_REACH; j <= FAR_REACH; j++)
         for (int i = -FAR_REACH; i <= FAR_REACH; i++)
-            map->apart[j + FAR_REACH][i + FAR_REACH + 16] = (uint8_t)apart(map->lattice, i, j);
+            map->apart[j + FAR_REACH][i + FAR_REACH] = (uint8_t)apart(map->lattice, i, j);
 }
 
 snow_status snow_plane_map_start(snow_plane_map *map, snow_heap *heap, const snow_exits *exits, bool keeps_matter,
@@ -187,36 +191,26 @@ static int64_t at_most(int64_t x, int64_t most)
 
 static snow_plane_page *page_of(snow_plane_map *map, int64_t column, int64_t row)
 {
-    uintptr_t *entry = &map->tile[(size_t)row * map->box.columns + (size_t)column];
-    if (*entry <= BEYOND) {
-        snow_plane_page *page = snow_pool_take(&map->pages);
-        memset(page->near, NEAR_REACH + 1, sizeof page->near);
-        for (int i = 0; i < 16; i++)
-            page->line[i] = &nothing.line;
-        *entry = (uintptr_t)page;
-    }
-    return (snow_plane_page *)*entry;
+    _Atomic uintptr_t *entry = &map->tile[(size_t)row * map->box.columns + (size_t)column];
+    uintptr_t known = SNOW_MAP_GET(*entry);
+    if (known > BEYOND)
+        return (snow_plane_page *)known;
+    snow_plane_page *page = snow_pool_take(&map->pages);
+    for (int i = 0; i < 256; i++)
+        atomic_init(&page->near[i], NEAR_REACH + 1);
+    for (int i = 0; i < 16; i++)
+        atomic_init(&page->line[i], &nothing.line);
+    SNOW_MAP_PUT_ADDRESS(*entry, (uintptr_t)page);
+    return page;
 }
 
-#if defined(__GNUC__)
-typedef uint8_t row_of_blocks __attribute__((vector_size(16)));
-#endif
-
 /* The lesser of each two. */
-static void lower(uint8_t *known, const uint8_t *bound)
+static void lower(_Atomic uint8_t *known, const uint8_t *bound, int64_t count)
 {
-#if defined(__GNUC__)
-    row_of_blocks a;
-    row_of_blocks b;
-    memcpy(&a, known, sizeof a);
-    memcpy(&b, bound, sizeof b);
-    row_of_blocks less = (row_of_blocks)(a < b);
-    a = (a & less) | (b & ~less);
-    memcpy(known, &a, sizeof a);
-#else
-    for (int i = 0; i < 16; i++)
-        known[i] = known[i] < bound[i] ? known[i] : bound[i];
-#endif
+    for (int64_t i = 0; i < count; i++) {
+        uint8_t d = SNOW_MAP_GET(known[i]);
+        SNOW_MAP_PUT(known[i], d < bound[i] ? d : bound[i]);
+    }
 }
 
 /* The block (i, j) has got its first special site. */
@@ -224,14 +218,13 @@ static void spread_near(snow_plane_map *map, int64_t i, int64_t j)
 {
     int64_t first_row = at_least(j - NEAR_REACH, 0);
     int64_t last_row = at_most(j + NEAR_REACH, (int64_t)map->box.rows * 16 - 1);
-    int64_t first_tile = at_least(i - NEAR_REACH, 0) / 16;
-    int64_t last_tile = at_most(i + NEAR_REACH, (int64_t)map->box.columns * 16 - 1) / 16;
-    for (int64_t tile = first_tile; tile <= last_tile; tile++) {
-        for (int64_t row = first_row; row <= last_row;) {
-            uint8_t *near = page_of(map, tile, row / 16)->near;
-            int64_t end = at_most(row - row % 16 + 16, last_row + 1);
-            for (; row < end; row++)
-                lower(near + row % 16 * 16, map->apart[row - j + FAR_REACH] + (tile * 16 - i + FAR_REACH + 16));
+    int64_t first = at_least(i - NEAR_REACH, 0);
+    int64_t last = at_most(i + NEAR_REACH, (int64_t)map->box.columns * 16 - 1);
+    for (int64_t start = first; start <= last; start += 16 - start % 16) {
+        int64_t count = at_most(16 - start % 16, last + 1 - start);
+        for (int64_t row = first_row; row <= last_row; row++) {
+            snow_plane_page *page = page_of(map, start / 16, row / 16);
+            lower(&page->near[row % 16 * 16 + start % 16], &map->apart[row - j + FAR_REACH][start - i + FAR_REACH], count);
         }
     }
 }
@@ -242,24 +235,19 @@ static void spread_patch(snow_plane_map *map, int64_t i, int64_t j)
     int64_t columns = map->box.columns * 4;
     int64_t first = at_least(i - FAR_REACH, 0);
     int64_t last = at_most(i + FAR_REACH, columns - 1);
-    for (int64_t y = at_least(j - FAR_REACH, 0); y <= at_most(j + FAR_REACH, (int64_t)map->box.rows * 4 - 1); y++) {
-        uint8_t *line = map->patch + y * columns;
-        const uint8_t *bound = map->apart[y - j + FAR_REACH] + (FAR_REACH + 16 - i);
-        for (int64_t x = first; x <= last; x++)
-            line[x] = line[x] < bound[x] ? line[x] : bound[x];
-    }
+    for (int64_t y = at_least(j - FAR_REACH, 0); y <= at_most(j + FAR_REACH, (int64_t)map->box.rows * 4 - 1); y++)
+        lower(&map->patch[y * columns + first], &map->apart[y - j + FAR_REACH][first - i + FAR_REACH], last + 1 - first);
+    map->far_changes++;
 }
 
 static void spread_square(snow_plane_map *map, int64_t i, int64_t j)
 {
     int64_t columns = map->box.columns / 16;
     int64_t rows = map->box.rows / 16;
-    for (int64_t y = at_least(j - FAR_REACH, 0); y <= at_most(j + FAR_REACH, rows - 1); y++) {
-        for (int64_t x = at_least(i - FAR_REACH, 0); x <= at_most(i + FAR_REACH, columns - 1); x++) {
-            uint8_t *known = &map->square[y * columns + x];
-            *known = (uint8_t)at_most(*known, apart(map->lattice, (int)(x - i), (int)(y - j)));
-        }
-    }
+    int64_t first = at_least(i - FAR_REACH, 0);
+    int64_t last = at_most(i + FAR_REACH, columns - 1);
+    for (int64_t y = at_least(j - FAR_REACH, 0); y <= at_most(j + FAR_REACH, rows - 1); y++)
+        lower(&map->square[y * columns + first], &map->apart[y - j + FAR_REACH][first - i + FAR_REACH], last + 1 - first);
 }
 
 /* The tile (i, j) has got its first special site. */
@@ -267,14 +255,16 @@ static void spread_tile(snow_plane_map *map, int64_t i, int64_t j)
 {
     for (int64_t y = at_least(j - FAR_REACH, 0); y <= at_most(j + FAR_REACH, (int64_t)map->box.rows - 1); y++) {
         for (int64_t x = at_least(i - FAR_REACH, 0); x <= at_most(i + FAR_REACH, (int64_t)map->box.columns - 1); x++) {
-            uintptr_t *entry = &map->tile[(size_t)y * map->box.columns + (size_t)x];
-            uintptr_t d = (uintptr_t)apart(map->lattice, (int)(x - i), (int)(y - j));
-            if (*entry <= BEYOND && d < *entry)
-                *entry = d;
+            _Atomic uintptr_t *entry = &map->tile[(size_t)y * map->box.columns + (size_t)x];
+            uintptr_t known = SNOW_MAP_GET(*entry);
+            uintptr_t d = map->apart[y - j + FAR_REACH][x - i + FAR_REACH];
+            if (known <= BEYOND && d < known)
+                SNOW_MAP_PUT(*entry, d);
         }
     }
+    map->far_changes++;
     int64_t columns = map->box.columns / 16;
-    if (map->square[j / 16 * columns + i / 16] != 0)
+    if (SNOW_MAP_GET(map->square[j / 16 * columns + i / 16]) != 0)
         spread_square(map, i / 16, j / 16);
 }
 
@@ -285,14 +275,14 @@ static void copy_in(snow_plane_map *map, const snow_plane_map *old)
     int64_t shift_y = ((int64_t)old->box.y - map->box.y) / 64;
     for (int64_t y = 0; y < old->box.rows; y++) {
         for (int64_t x = 0; x < old->box.columns; x++) {
-            uintptr_t entry = old->tile[(size_t)y * old->box.columns + (size_t)x];
+            uintptr_t entry = SNOW_MAP_GET(old->tile[(size_t)y * old->box.columns + (size_t)x]);
             if (entry > BEYOND)
-                map->tile[(size_t)(y + shift_y) * map->box.columns + (size_t)(x + shift_x)] = entry;
+                SNOW_MAP_PUT(map->tile[(size_t)(y + shift_y) * map->box.columns + (size_t)(x + shift_x)], entry);
         }
     }
     for (int64_t y = 0; y < (int64_t)old->box.rows * 4; y++)
-        memcpy(map->patch + (size_t)(y + 4 * shift_y) * (map->box.columns * 4) + 4 * shift_x,
-               old->patch + (size_t)y * (old->box.columns * 4), old->box.columns * 4);
+        memcpy((void *)(map->patch + (size_t)(y + 4 * shift_y) * (map->box.columns * 4) + 4 * shift_x),
+               (const void *)(old->patch + (size_t)y * (old->box.columns * 4)), old->box.columns * 4);
 }
 
 snow_status snow_plane_map_widen(snow_plane_map *map, snow_heap *heap, snow_plane_box box)
@@ -305,14 +295,14 @@ snow_status snow_plane_map_widen(snow_plane_map *map, snow_heap *heap, snow_plan
     uncover(&old, heap);
     for (int64_t y = 0; y < box.rows; y++) {
         for (int64_t x = 0; x < box.columns; x++) {
-            uintptr_t entry = map->tile[(size_t)y * box.columns + (size_t)x];
+            uintptr_t entry = SNOW_MAP_GET(map->tile[(size_t)y * box.columns + (size_t)x]);
             if (entry > BEYOND && holds_special((const snow_plane_page *)entry))
                 spread_tile(map, x, y);
         }
     }
     for (int64_t y = 0; y < (int64_t)box.rows * 4; y++)
         for (int64_t x = 0; x < (int64_t)box.columns * 4; x++)
-            if (map->patch[y * box.columns * 4 + x] == 0)
+            if (SNOW_MAP_GET(map->patch[y * box.columns * 4 + x]) == 0)
                 spread_patch(map, x, y);
     return SNOW_OK;
 }
@@ -326,11 +316,11 @@ snow_status snow_plane_map_reserve(snow_plane_map *map, snow_heap *heap)
 
 static void add_special(snow_plane_map *map, snow_plane_page *page, int32_t i, int32_t j)
 {
-    if (page->near[j % 16 * 16 + i % 16] == 0)
+    if (SNOW_MAP_GET(page->near[j % 16 * 16 + i % 16]) == 0)
         return;
     bool is_first = !holds_special(page);
     spread_near(map, i, j);
-    if (map->patch[(size_t)(j / 4) * (map->box.columns * 4) + (size_t)(i / 4)] != 0)
+    if (SNOW_MAP_GET(map->patch[(size_t)(j / 4) * (map->box.columns * 4) + (size_t)(i / 4)]) != 0)
         spread_patch(map, i / 4, j / 4);
     if (is_first)
         spread_tile(map, i / 16, j / 16);
@@ -343,16 +333,17 @@ static void add_print(snow_plane_map *map, int32_t i, int32_t j, uint32_t print)
     snow_plane_page *page = page_of(map, i / 16, j / 16);
     if (has_special(print))
         add_special(map, page, i, j);
-    uint32_t *word = &line_with(map, page, (uint32_t)i % 16, (uint32_t)j % 16)->word[j % 4 * 4 + i % 4];
-    *word = greater(*word, print);
+    snow_plane_line *line = line_with(map, page, (uint32_t)i % 16, (uint32_t)j % 16);
+    _Atomic uint32_t *word = &line->word[j % 4 * 4 + i % 4];
+    SNOW_MAP_PUT(*word, greater(SNOW_MAP_GET(*word), print));
 }
 
 static void add_matter(snow_plane_map *map, uint32_t u, uint32_t v, bool obstacle)
 {
     snow_plane_page *page = page_of(map, u / 64, v / 64);
     snow_plane_matter *matter = (snow_plane_matter *)line_with(map, page, u / 4 % 16, v / 4 % 16);
-    uint16_t *word = &(obstacle ? matter->obstacle : matter->filled)[v / 4 % 4 * 4 + u / 4 % 4];
-    *word = (uint16_t)(*word | 1u << (v % 4 * 4 + u % 4));
+    _Atomic uint16_t *word = &(obstacle ? matter->obstacle : matter->filled)[v / 4 % 4 * 4 + u / 4 % 4];
+    SNOW_MAP_PUT(*word, (uint16_t)(SNOW_MAP_GET(*word) | 1u << (v % 4 * 4 + u % 4)));
 }
 
 void snow_plane_map_add(snow_plane_map *map, int32_t x, int32_t y, bool obstacle)

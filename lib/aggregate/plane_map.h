@@ -31,19 +31,19 @@ enum {
 /* Three less the distance of each site: the lower bits of the sites of a block
    in the lower half of its word, the upper bits in the upper half. */
 typedef struct snow_plane_line {
-    uint32_t word[16];
+    _Atomic uint32_t word[16];
 } snow_plane_line;
 
 /* The same where it matters which sites are filled and which are obstacles: a bit a site. */
 typedef struct snow_plane_matter {
     snow_plane_line line;
-    uint16_t filled[16];
-    uint16_t obstacle[16];
+    _Atomic uint16_t filled[16];
+    _Atomic uint16_t obstacle[16];
 } snow_plane_matter;
 
 typedef struct snow_plane_page {
-    uint8_t near[256];
-    snow_plane_line *line[16]; /* never NULL: where nothing is near they share one */
+    _Atomic uint8_t near[256];
+    snow_plane_line *_Atomic line[16]; /* never NULL: where nothing is near they share one */
 } snow_plane_page;
 
 /* The sites that the map covers: whole squares of tiles. */
@@ -54,9 +54,9 @@ typedef struct snow_plane_box {
 
 typedef struct snow_plane_map {
     snow_plane_box box;
-    uintptr_t *tile; /* up to 16: the distance; else the address of a page */
-    uint8_t *patch;
-    uint8_t *square;
+    _Atomic uintptr_t *tile; /* up to 16: the distance; else the address of a page */
+    _Atomic uint8_t *patch;
+    _Atomic uint8_t *square;
     uint8_t patch_class[17];
     uint8_t tile_class[17];
     uint8_t square_class[17];
@@ -66,7 +66,8 @@ typedef struct snow_plane_map {
     bool keeps_matter;
     snow_aggregate_lattice lattice;
     uint32_t print[16][9];     /* what a filled site does to the words of the blocks round it, by its place in its block */
-    uint8_t apart[31][31 + 32]; /* distances up to 15; 16 columns of 255 at both sides */
+    uint8_t apart[31][31];     /* distances up to 15, from the middle */
+    uint64_t far_changes;      /* of what is known of patches, tiles and squares, so far */
 } snow_plane_map;
 
 snow_status snow_plane_map_start(snow_plane_map *map, snow_heap *heap, const snow_exits *exits, bool keeps_matter,
@@ -84,10 +85,10 @@ void snow_plane_map_add(snow_plane_map *map, int32_t x, int32_t y, bool obstacle
 static inline int snow_plane_map_look_far(const snow_plane_map *map, uintptr_t entry, uint32_t u, uint32_t v)
 {
     if (entry < SNOW_PLANE_TILES_FROM || entry > 16)
-        return map->patch_class[map->patch[(size_t)(v / 16) * (map->box.columns * 4) + u / 16]];
+        return map->patch_class[SNOW_MAP_GET(map->patch[(size_t)(v / 16) * (map->box.columns * 4) + u / 16])];
     if (entry < 16)
         return map->tile_class[entry];
-    return map->square_class[map->square[(size_t)(v / 1024) * (map->box.columns / 16) + u / 1024]];
+    return map->square_class[SNOW_MAP_GET(map->square[(size_t)(v / 1024) * (map->box.columns / 16) + u / 1024])];
 }
 
 /* 0: special; else a class; SNOW_MAP_BEYOND. */
@@ -97,15 +98,15 @@ static inline int snow_plane_map_look(const snow_plane_map *map, int32_t x, int3
     uint32_t v = (uint32_t)y - (uint32_t)map->box.y;
     if (u >= map->width || v >= map->height)
         return SNOW_MAP_BEYOND;
-    uintptr_t entry = map->tile[(size_t)(v / 64) * map->box.columns + u / 64];
+    uintptr_t entry = SNOW_MAP_GET_ADDRESS(map->tile[(size_t)(v / 64) * map->box.columns + u / 64]);
     if (entry <= 16)
         return snow_plane_map_look_far(map, entry, u, v);
     const snow_plane_page *page = (const snow_plane_page *)entry;
-    int near = page->near[v / 4 % 16 * 16 + u / 4 % 16];
+    int near = SNOW_MAP_GET(page->near[v / 4 % 16 * 16 + u / 4 % 16]);
     if (near >= 2)
         return near <= SNOW_PLANE_NEAR ? near + 2 : snow_plane_map_look_far(map, entry, u, v);
-    const snow_plane_line *line = page->line[v / 16 % 4 * 4 + u / 16 % 4];
-    uint32_t word = line->word[v / 4 % 4 * 4 + u / 4 % 4] >> (v % 4 * 4 + u % 4);
+    const snow_plane_line *line = SNOW_MAP_GET_ADDRESS(page->line[v / 16 % 4 * 4 + u / 16 % 4]);
+    uint32_t word = SNOW_MAP_GET(line->word[v / 4 % 4 * 4 + u / 4 % 4]) >> (v % 4 * 4 + u % 4);
     return 3 - (int)((word >> 15 & 2) | (word & 1));
 }
 
@@ -116,14 +117,15 @@ static inline int snow_plane_map_matter(const snow_plane_map *map, int32_t x, in
     uint32_t v = (uint32_t)y - (uint32_t)map->box.y;
     if (u >= map->width || v >= map->height)
         return 0;
-    uintptr_t entry = map->tile[(size_t)(v / 64) * map->box.columns + u / 64];
+    uintptr_t entry = SNOW_MAP_GET_ADDRESS(map->tile[(size_t)(v / 64) * map->box.columns + u / 64]);
     if (entry <= 16)
         return 0;
     const snow_plane_page *page = (const snow_plane_page *)entry;
-    const snow_plane_matter *matter = (const snow_plane_matter *)page->line[v / 16 % 4 * 4 + u / 16 % 4];
+    const snow_plane_line *line = SNOW_MAP_GET_ADDRESS(page->line[v / 16 % 4 * 4 + u / 16 % 4]);
+    const snow_plane_matter *matter = (const snow_plane_matter *)line;
     uint32_t block = v / 4 % 4 * 4 + u / 4 % 4;
     uint32_t bit = v % 4 * 4 + u % 4;
-    return (matter->filled[block] >> bit & 1) | (matter->obstacle[block] >> bit & 1) << 1;
+    return (SNOW_MAP_GET(matter->filled[block]) >> bit & 1) | (SNOW_MAP_GET(matter->obstacle[block]) >> bit & 1) << 1;
 }
 
 #endif

@@ -50,8 +50,8 @@ static wave hexagonal_wave(double node, double weight)
     double angle = pi / 2 * node;
     double half = sin(angle / 2);
     double cosine = cos(angle);
-    double next = 2 * cosine / 3;                                 /* the weight of the next rows */
-    double excess = 4.0 / 3 * half * half * (2 + cosine);         /* that of the row, less this */
+    double next = 2 * cosine / 3;                         /* the weight of the next rows */
+    double excess = 4.0 / 3 * half * half * (2 + cosine); /* that of the row, less this */
     double root = sqrt(excess * (excess + 2 * next));
     return (wave){angle, log1p((excess + root) / next), weight / root};
 }
@@ -62,17 +62,17 @@ static size_t index_of(int32_t along, int32_t across)
 }
 
 /* 1 - e^(-decay along) cos(angle across), without loss where it is small. */
-static void add_wave(double *near, int32_t reach, wave wave)
+static void add_wave(double *near, int32_t reach, wave one)
 {
     double versine[REACH];
     for (int32_t across = 0; across < reach; across++) {
-        double half = sin(wave.angle * across / 2);
+        double half = sin(one.angle * across / 2);
         versine[across] = 2 * half * half;
     }
     for (int32_t along = 0; along < reach; along++) {
-        double lost = -expm1(-wave.decay * along);
+        double lost = -expm1(-one.decay * along);
         for (int32_t across = 0; across <= along; across++)
-            near[index_of(along, across)] += wave.weight * (lost + (1 - lost) * versine[across]);
+            near[index_of(along, across)] += one.weight * (lost + (1 - lost) * versine[across]);
     }
 }
 

@@ -68,16 +68,17 @@ static size_t tiles_of(snow_space_box box)
 
 static snow_status cover(snow_space_map *map, snow_heap *heap, snow_space_box box)
 {
-    uintptr_t *tile = snow_heap_get_raw(heap, tiles_of(box), sizeof *tile);
-    uint8_t *cube = snow_heap_get_raw(heap, tiles_of(box) / 64, 1);
+    _Atomic uintptr_t *tile = snow_heap_get_raw(heap, tiles_of(box), sizeof *tile);
+    _Atomic uint8_t *cube = snow_heap_get_raw(heap, tiles_of(box) / 64, 1);
     if (tile == NULL || cube == NULL) {
         snow_heap_put(heap, cube);
         snow_heap_put(heap, tile);
         return heap->refusal;
     }
     for (size_t i = 0; i < tiles_of(box); i++)
-        tile[i] = BEYOND;
-    memset(cube, BEYOND, tiles_of(box) / 64);
+        atomic_init(&tile[i], BEYOND);
+    for (size_t i = 0; i < tiles_of(box) / 64; i++)
+        atomic_init(&cube[i], BEYOND);
     map->box = box;
     map->tile = tile;
     map->cube = cube;
@@ -135,12 +136,12 @@ void snow_space_map_end(snow_space_map *map, snow_heap *heap)
     map->tile = NULL;
 }
 
-static uintptr_t *tile_at(snow_space_map *map, int64_t column, int64_t row, int64_t layer)
+static _Atomic uintptr_t *tile_at(snow_space_map *map, int64_t column, int64_t row, int64_t layer)
 {
     return &map->tile[((size_t)layer * map->box.rows + (size_t)row) * map->box.columns + (size_t)column];
 }
 
-static uint8_t *cube_at(snow_space_map *map, int64_t column, int64_t row, int64_t layer)
+static _Atomic uint8_t *cube_at(snow_space_map *map, int64_t column, int64_t row, int64_t layer)
 {
     size_t line = (size_t)layer * (map->box.rows / 4) + (size_t)row;
     return &map->cube[line * (map->box.columns / 4) + (size_t)column];
@@ -151,24 +152,26 @@ static snow_space_matter nothing;
 
 static bool holds_special(const snow_space_page *page)
 {
-    return memchr(page->near, 0, sizeof page->near) != NULL;
+    return memchr((const void *)page->near, 0, sizeof page->near) != NULL;
 }
 
 /* The page with the block (i, j, k). */
 static snow_space_page *page_with(snow_space_map *map, int64_t i, int64_t j, int64_t k)
 {
-    uintptr_t *entry = tile_at(map, i / 4, j / 4, k / 4);
-    if (*entry <= BEYOND) {
-        snow_space_page *page = snow_pool_take(&map->pages);
-        memset(page->near, NEAR_REACH + 1, sizeof page->near);
-        for (int octant = 0; octant < 8; octant++)
-            page->line[octant] = &nothing.line;
-        *entry = (uintptr_t)page;
-    }
-    return (snow_space_page *)*entry;
+    _Atomic uintptr_t *entry = tile_at(map, i / 4, j / 4, k / 4);
+    uintptr_t known = SNOW_MAP_GET(*entry);
+    if (known > BEYOND)
+        return (snow_space_page *)known;
+    snow_space_page *page = snow_pool_take(&map->pages);
+    for (int place = 0; place < 64; place++)
+        atomic_init(&page->near[place], NEAR_REACH + 1);
+    for (int octant = 0; octant < 8; octant++)
+        atomic_init(&page->line[octant], &nothing.line);
+    SNOW_MAP_PUT_ADDRESS(*entry, (uintptr_t)page);
+    return page;
 }
 
-static uint8_t *near_at(snow_space_map *map, int64_t i, int64_t j, int64_t k)
+static _Atomic uint8_t *near_at(snow_space_map *map, int64_t i, int64_t j, int64_t k)
 {
     return &page_with(map, i, j, k)->near[snow_space_place((uint32_t)i, (uint32_t)j, (uint32_t)k)];
 }
@@ -197,10 +200,11 @@ static void lower_page(snow_space_page *page, const uint8_t *apart_in_layer, int
         uint8_t least = (uint8_t)magnitude(first_layer + layer - k);
         if (least > NEAR_REACH)
             continue;
-        uint8_t *near = page->near + 16 * layer;
+        _Atomic uint8_t *near = page->near + 16 * layer;
         for (int place = 0; place < 16; place++) {
             uint8_t d = apart_in_layer[place] > least ? apart_in_layer[place] : least;
-            near[place] = near[place] < d ? near[place] : d;
+            uint8_t known = SNOW_MAP_GET(near[place]);
+            SNOW_MAP_PUT(near[place], known < d ? known : d);
         }
     }
 }
@@ -225,8 +229,8 @@ static void spread_cube(snow_space_map *map, int64_t i, int64_t j, int64_t k)
     for (int64_t z = all.first[2]; z <= all.last[2]; z++) {
         for (int64_t y = all.first[1]; y <= all.last[1]; y++) {
             for (int64_t x = all.first[0]; x <= all.last[0]; x++) {
-                uint8_t *known = cube_at(map, x, y, z);
-                *known = (uint8_t)at_most(*known, apart(x - i, y - j, z - k));
+                _Atomic uint8_t *known = cube_at(map, x, y, z);
+                SNOW_MAP_PUT(*known, (uint8_t)at_most(SNOW_MAP_GET(*known), apart(x - i, y - j, z - k)));
             }
         }
     }
@@ -239,14 +243,16 @@ static void spread_tile(snow_space_map *map, int64_t i, int64_t j, int64_t k)
     for (int64_t z = all.first[2]; z <= all.last[2]; z++) {
         for (int64_t y = all.first[1]; y <= all.last[1]; y++) {
             for (int64_t x = all.first[0]; x <= all.last[0]; x++) {
-                uintptr_t *entry = tile_at(map, x, y, z);
+                _Atomic uintptr_t *entry = tile_at(map, x, y, z);
+                uintptr_t known = SNOW_MAP_GET(*entry);
                 uintptr_t d = (uintptr_t)apart(x - i, y - j, z - k);
-                if (*entry <= BEYOND && d < *entry)
-                    *entry = d;
+                if (known <= BEYOND && d < known)
+                    SNOW_MAP_PUT(*entry, d);
             }
         }
     }
-    if (*cube_at(map, i / 4, j / 4, k / 4) != 0)
+    map->far_changes++;
+    if (SNOW_MAP_GET(*cube_at(map, i / 4, j / 4, k / 4)) != 0)
         spread_cube(map, i / 4, j / 4, k / 4);
 }
 
@@ -256,7 +262,7 @@ static void spread_all_tiles(snow_space_map *map)
     for (int64_t z = 0; z < map->box.layers; z++) {
         for (int64_t y = 0; y < map->box.rows; y++) {
             for (int64_t x = 0; x < map->box.columns; x++) {
-                uintptr_t entry = *tile_at(map, x, y, z);
+                uintptr_t entry = SNOW_MAP_GET(*tile_at(map, x, y, z));
                 if (entry > BEYOND && holds_special((const snow_space_page *)entry))
                     spread_tile(map, x, y, z);
             }
@@ -276,9 +282,9 @@ snow_status snow_space_map_widen(snow_space_map *map, snow_heap *heap, snow_spac
     for (int64_t z = 0; z < old.box.layers; z++) {
         for (int64_t y = 0; y < old.box.rows; y++) {
             for (int64_t x = 0; x < old.box.columns; x++) {
-                uintptr_t entry = *tile_at(&old, x, y, z);
+                uintptr_t entry = SNOW_MAP_GET(*tile_at(&old, x, y, z));
                 if (entry > BEYOND)
-                    *tile_at(map, x + shift_x, y + shift_y, z + shift_z) = entry;
+                    SNOW_MAP_PUT(*tile_at(map, x + shift_x, y + shift_y, z + shift_z), entry);
             }
         }
     }
@@ -297,7 +303,7 @@ snow_status snow_space_map_reserve(snow_space_map *map, snow_heap *heap)
 
 static void add_special(snow_space_map *map, int64_t i, int64_t j, int64_t k)
 {
-    if (*near_at(map, i, j, k) == 0)
+    if (SNOW_MAP_GET(*near_at(map, i, j, k)) == 0)
         return;
     bool is_first = !holds_special(page_with(map, i, j, k));
     spread_near(map, i, j, k);
@@ -309,10 +315,13 @@ static void add_special(snow_space_map *map, int64_t i, int64_t j, int64_t k)
 static snow_space_line *line_with(snow_space_map *map, int64_t i, int64_t j, int64_t k)
 {
     snow_space_page *page = page_with(map, i, j, k);
-    snow_space_line **line = &page->line[snow_space_octant((uint32_t)i / 2, (uint32_t)j / 2, (uint32_t)k / 2)];
-    if (*line == &nothing.line)
-        *line = snow_pool_take(&map->lines);
-    return *line;
+    uint32_t octant = snow_space_octant((uint32_t)i / 2, (uint32_t)j / 2, (uint32_t)k / 2);
+    snow_space_line *line = SNOW_MAP_GET(page->line[octant]);
+    if (line == &nothing.line) {
+        line = snow_pool_take(&map->lines);
+        SNOW_MAP_PUT_ADDRESS(page->line[octant], line);
+    }
+    return line;
 }
 
 static void add_print(snow_space_map *map, int64_t i, int64_t j, int64_t k, snow_space_word print)
@@ -323,8 +332,13 @@ static void add_print(snow_space_map *map, int64_t i, int64_t j, int64_t k, snow
     if ((print.upper & print.lower) != 0)
         add_special(map, i, j, k);
     uint32_t octant = snow_space_octant((uint32_t)i, (uint32_t)j, (uint32_t)k);
-    snow_space_word *word = &line_with(map, i, j, k)->word[octant];
-    *word = greater(*word, print);
+    snow_space_shared_word *word = &line_with(map, i, j, k)->word[octant];
+    for (int half = 0; half < 2; half++) {
+        snow_space_word known = {SNOW_MAP_GET(word->upper[half]), SNOW_MAP_GET(word->lower[half])};
+        known = greater(known, (snow_space_word){print.upper >> 32 * half, print.lower >> 32 * half});
+        SNOW_MAP_PUT(word->upper[half], (uint32_t)known.upper);
+        SNOW_MAP_PUT(word->lower[half], (uint32_t)known.lower);
+    }
 }
 
 void snow_space_map_add(snow_space_map *map, int32_t x, int32_t y, int32_t z, bool obstacle)
@@ -343,5 +357,6 @@ void snow_space_map_add(snow_space_map *map, int32_t x, int32_t y, int32_t z, bo
         return;
     snow_space_matter *matter = (snow_space_matter *)line_with(map, i, j, k);
     uint32_t octant = snow_space_octant((uint32_t)i, (uint32_t)j, (uint32_t)k);
-    (obstacle ? matter->obstacle : matter->filled)[octant] |= UINT64_C(1) << place;
+    _Atomic uint32_t *word = &(obstacle ? matter->obstacle : matter->filled)[octant][place / 32];
+    SNOW_MAP_PUT(*word, SNOW_MAP_GET(*word) | UINT32_C(1) << place % 32);
 }

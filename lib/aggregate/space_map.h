@@ -15,19 +15,25 @@ typedef struct snow_space_word {
     uint64_t lower;
 } snow_space_word;
 
+/* The same with 32 sites each in numbers that threads can share on every platform. */
+typedef struct snow_space_shared_word {
+    _Atomic uint32_t upper[2];
+    _Atomic uint32_t lower[2];
+} snow_space_shared_word;
+
 typedef struct snow_space_line {
-    snow_space_word word[8];
+    snow_space_shared_word word[8];
 } snow_space_line;
 
 typedef struct snow_space_matter {
     snow_space_line line;
-    uint64_t filled[8];
-    uint64_t obstacle[8];
+    _Atomic uint32_t filled[8][2];
+    _Atomic uint32_t obstacle[8][2];
 } snow_space_matter;
 
 typedef struct snow_space_page {
-    uint8_t near[64];
-    snow_space_line *line[8]; /* never NULL: where nothing is near they share one */
+    _Atomic uint8_t near[64];
+    snow_space_line *_Atomic line[8]; /* never NULL: where nothing is near they share one */
 } snow_space_page;
 
 /* The sites that the map covers: whole cubes of tiles. */
@@ -38,14 +44,15 @@ typedef struct snow_space_box {
 
 typedef struct snow_space_map {
     snow_space_box box;
-    uintptr_t *tile; /* up to 6: the distance; else the address of a page */
-    uint8_t *cube;
+    _Atomic uintptr_t *tile; /* up to 6: the distance; else the address of a page */
+    _Atomic uint8_t *cube;
     uint8_t tile_class[7];
     uint8_t cube_class[7];
     snow_pool pages;
     snow_pool lines; /* with matter, if that is kept */
     bool keeps_matter;
     uint8_t apart[16][9][16]; /* distances in a layer of blocks: from a place in a page to the places of the pages round it */
+    uint64_t far_changes;     /* of what is known of tiles and cubes, so far */
     snow_space_word (*print)[27]; /* for each place in a block: what a filled site does to the words of the blocks round it */
 } snow_space_map;
 
@@ -62,7 +69,7 @@ void snow_space_map_add(snow_space_map *map, int32_t x, int32_t y, int32_t z, bo
 
 static inline uintptr_t snow_space_map_tile(const snow_space_map *map, uint32_t column, uint32_t row, uint32_t layer)
 {
-    return map->tile[((size_t)layer * map->box.rows + row) * map->box.columns + column];
+    return SNOW_MAP_GET_ADDRESS(map->tile[((size_t)layer * map->box.rows + row) * map->box.columns + column]);
 }
 
 static inline bool snow_space_map_has(const snow_space_map *map, uint32_t column, uint32_t row, uint32_t layer)
@@ -94,16 +101,17 @@ static inline int snow_space_map_look(const snow_space_map *map, int32_t x, int3
         return map->tile_class[entry];
     if (entry == 6) {
         size_t row = (size_t)(w / 64) * (map->box.rows / 4) + v / 64;
-        return map->cube_class[map->cube[row * (map->box.columns / 4) + u / 64]];
+        return map->cube_class[SNOW_MAP_GET(map->cube[row * (map->box.columns / 4) + u / 64])];
     }
     const snow_space_page *page = (const snow_space_page *)entry;
-    int near = page->near[snow_space_place(u / 4, v / 4, w / 4)];
+    int near = SNOW_MAP_GET(page->near[snow_space_place(u / 4, v / 4, w / 4)]);
     if (near >= 2)
         return near + 2;
-    const snow_space_line *line = page->line[snow_space_octant(u / 8, v / 8, w / 8)];
-    const snow_space_word *word = &line->word[snow_space_octant(u / 4, v / 4, w / 4)];
-    uint32_t bit = snow_space_place(u, v, w);
-    return 3 - (int)((word->upper >> bit & 1) << 1 | (word->lower >> bit & 1));
+    const snow_space_line *line = SNOW_MAP_GET_ADDRESS(page->line[snow_space_octant(u / 8, v / 8, w / 8)]);
+    const snow_space_shared_word *word = &line->word[snow_space_octant(u / 4, v / 4, w / 4)];
+    uint32_t half = w / 2 % 2;
+    uint32_t bit = snow_space_place(u, v, w) % 32;
+    return 3 - (int)((SNOW_MAP_GET(word->upper[half]) >> bit & 1) << 1 | (SNOW_MAP_GET(word->lower[half]) >> bit & 1));
 }
 
 /* What is on a site; only where matter is kept. */
@@ -118,10 +126,13 @@ static inline int snow_space_map_matter(const snow_space_map *map, int32_t x, in
     if (entry <= 6)
         return 0;
     const snow_space_page *page = (const snow_space_page *)entry;
-    const snow_space_matter *matter = (const snow_space_matter *)page->line[snow_space_octant(u / 8, v / 8, w / 8)];
+    const snow_space_line *line = SNOW_MAP_GET_ADDRESS(page->line[snow_space_octant(u / 8, v / 8, w / 8)]);
+    const snow_space_matter *matter = (const snow_space_matter *)line;
     uint32_t block = snow_space_octant(u / 4, v / 4, w / 4);
-    uint32_t bit = snow_space_place(u, v, w);
-    return (int)((matter->filled[block] >> bit & 1) | (matter->obstacle[block] >> bit & 1) << 1);
+    uint32_t half = w / 2 % 2;
+    uint32_t bit = snow_space_place(u, v, w) % 32;
+    uint32_t filled = SNOW_MAP_GET(matter->filled[block][half]) >> bit & 1;
+    return (int)(filled | (SNOW_MAP_GET(matter->obstacle[block][half]) >> bit & 1) << 1);
 }
 
 #endif
