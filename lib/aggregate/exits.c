@@ -11,7 +11,8 @@ static const int32_t radii_square[] = {1,  2,  3,  5,   9,   13,  17,  21,  25, 
 static const int32_t radii_hexagonal[] = {1, 2, 3, 5, 9, 13, 17, 21, 25, 29, 33, 49, 65, 97, 129};
 static const int32_t radii_cubic[] = {1, 2, 3, 5, 9, 13, 17, 33, 49, 65, 97, 129, 193, 256};
 /* Hexagonal: regions that are left through circles. */
-static const int32_t radii_of_circles[] = {257, 385, 513, 769, 1025, 2049, 4097, 8193};
+static const int32_t radii_of_circles[] = {257, 321, 385,  449,  513,  577,  641,  705,  769,
+                                           833, 897, 1025, 2049, 3073, 4097, 6145, 8193, 14337};
 
 enum { MOST_STEPS = 512 }; /* columns of a small table */
 

@@ -36,7 +36,7 @@ typedef struct snow_exit_table {
     int32_t radius;
 } snow_exit_table;
 
-enum { SNOW_EXIT_CLASSES = 28, SNOW_EXIT_OCTAVES = 15 };
+enum { SNOW_EXIT_CLASSES = 36, SNOW_EXIT_OCTAVES = 15 };
 
 /* The tables of a lattice, by ascending radius. */
 typedef struct snow_exits {

@@ -214,11 +214,12 @@ COPIED snow_site fly(const snow_ground *ground, snow_draws *draws, snow_diary *d
         if (noted)
             note(diary, site, seen);
         if (RARE(seen == SNOW_MAP_BEYOND)) {
-            if (snow_source_is_beyond(source, site)) {
+            int64_t clear = clear_of(source, lattice, site);
+            if (RARE(clear > source->safe) && snow_source_is_beyond(source, site)) {
                 site = snow_source_return(source, site, draws);
                 continue;
             }
-            seen = (uint32_t)snow_exits_class(&ground->exits, clear_of(source, lattice, site));
+            seen = (uint32_t)snow_exits_class(&ground->exits, clear);
         }
         if (!careful && seen == 0)
             return site;
@@ -239,7 +240,8 @@ COPIED snow_site fly(const snow_ground *ground, snow_draws *draws, snow_diary *d
     }
 }
 
-COPIED snow_site fly_over(const snow_ground *ground, snow_draws *draws, snow_diary *diary, snow_aggregate_lattice lattice)
+COPIED snow_site fly_over(const snow_ground *ground, snow_draws *draws, snow_diary *diary,
+                          snow_aggregate_lattice lattice)
 {
     bool in_vessel = ground->source.width > 0;
     if (in_vessel || ground->careful)

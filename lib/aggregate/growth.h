@@ -28,7 +28,7 @@ typedef struct snow_growth_rules {
        0 <= X <= 2 width - 1, X = 2q + r, with mirrors at both ends, on sites. */
     int32_t width; /* 0: no vessel */
     int32_t depth;
-    int32_t lid; /* the highest row, a mirror above it (hexagonal: through it); negative: none, walkers come from infinity */
+    int32_t lid; /* the highest row, a mirror above it (hexagonal: through it); negative: none */
 } snow_growth_rules;
 
 snow_status snow_growth_start(snow_growth **growth, snow_heap *heap, const snow_growth_rules *rules);

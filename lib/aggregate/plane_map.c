@@ -204,12 +204,25 @@ static snow_plane_page *page_of(snow_plane_map *map, int64_t column, int64_t row
     return page;
 }
 
+/* Whether none of eight bounds is below what is known; all are less than 128. */
+static bool are_known(const _Atomic uint8_t *known, const uint8_t *bound)
+{
+    const uint64_t tops = UINT64_C(0x8080808080808080);
+    uint64_t a;
+    uint64_t b;
+    memcpy(&a, (const void *)known, sizeof a); /* nobody else writes */
+    memcpy(&b, bound, sizeof b);
+    return (((b | tops) - a) & tops) == tops;
+}
+
 /* The lesser of each two. */
 static void lower(_Atomic uint8_t *known, const uint8_t *bound, int64_t count)
 {
     for (int64_t i = 0; i < count; i++) {
-        uint8_t d = SNOW_MAP_GET(known[i]);
-        SNOW_MAP_PUT(known[i], d < bound[i] ? d : bound[i]);
+        while (i + 8 <= count && are_known(known + i, bound + i))
+            i += 8;
+        if (i < count && bound[i] < SNOW_MAP_GET(known[i]))
+            SNOW_MAP_PUT(known[i], bound[i]);
     }
 }
 
@@ -224,7 +237,8 @@ static void spread_near(snow_plane_map *map, int64_t i, int64_t j)
         int64_t count = at_most(16 - start % 16, last + 1 - start);
         for (int64_t row = first_row; row <= last_row; row++) {
             snow_plane_page *page = page_of(map, start / 16, row / 16);
-            lower(&page->near[row % 16 * 16 + start % 16], &map->apart[row - j + FAR_REACH][start - i + FAR_REACH], count);
+            const uint8_t *bound = &map->apart[row - j + FAR_REACH][start - i + FAR_REACH];
+            lower(&page->near[row % 16 * 16 + start % 16], bound, count);
         }
     }
 }
@@ -235,8 +249,11 @@ static void spread_patch(snow_plane_map *map, int64_t i, int64_t j)
     int64_t columns = map->box.columns * 4;
     int64_t first = at_least(i - FAR_REACH, 0);
     int64_t last = at_most(i + FAR_REACH, columns - 1);
-    for (int64_t y = at_least(j - FAR_REACH, 0); y <= at_most(j + FAR_REACH, (int64_t)map->box.rows * 4 - 1); y++)
-        lower(&map->patch[y * columns + first], &map->apart[y - j + FAR_REACH][first - i + FAR_REACH], last + 1 - first);
+    int64_t last_row = at_most(j + FAR_REACH, (int64_t)map->box.rows * 4 - 1);
+    for (int64_t y = at_least(j - FAR_REACH, 0); y <= last_row; y++) {
+        const uint8_t *bound = &map->apart[y - j + FAR_REACH][first - i + FAR_REACH];
+        lower(&map->patch[y * columns + first], bound, last + 1 - first);
+    }
     map->far_changes++;
 }
 
@@ -246,8 +263,10 @@ static void spread_square(snow_plane_map *map, int64_t i, int64_t j)
     int64_t rows = map->box.rows / 16;
     int64_t first = at_least(i - FAR_REACH, 0);
     int64_t last = at_most(i + FAR_REACH, columns - 1);
-    for (int64_t y = at_least(j - FAR_REACH, 0); y <= at_most(j + FAR_REACH, rows - 1); y++)
-        lower(&map->square[y * columns + first], &map->apart[y - j + FAR_REACH][first - i + FAR_REACH], last + 1 - first);
+    for (int64_t y = at_least(j - FAR_REACH, 0); y <= at_most(j + FAR_REACH, rows - 1); y++) {
+        const uint8_t *bound = &map->apart[y - j + FAR_REACH][first - i + FAR_REACH];
+        lower(&map->square[y * columns + first], bound, last + 1 - first);
+    }
 }
 
 /* The tile (i, j) has got its first special site. */

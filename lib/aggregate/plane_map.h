@@ -65,7 +65,7 @@ typedef struct snow_plane_map {
     snow_pool lines; /* with matter, if that is kept */
     bool keeps_matter;
     snow_aggregate_lattice lattice;
-    uint32_t print[16][9];     /* what a filled site does to the words of the blocks round it, by its place in its block */
+    uint32_t print[16][9];     /* for each place in a block: what a filled site does to the words round it */
     uint8_t apart[31][31];     /* distances up to 15, from the middle */
     uint64_t far_changes;      /* of what is known of patches, tiles and squares, so far */
 } snow_plane_map;

@@ -62,7 +62,8 @@ static point unit_sphere(snow_draws *draws)
 
 static int32_t nearest(double x)
 {
-    return (int32_t)floor(x + 0.5);
+    int32_t truncated = (int32_t)(x + 0.5);
+    return truncated - (truncated > x + 0.5);
 }
 
 /* Each site has its own cell of points, all of one size. */
@@ -130,12 +131,14 @@ void snow_source_fit(snow_source_of_walkers *source, int64_t farthest)
         source->rim = (int32_t)in_steps(farthest + 2); /* one more row is special */
         source->reach = source->rim - 1;
         source->far = source->rim + 10 * widest;
+        source->safe = source->far - source->reach;
         return;
     }
     int64_t rim = in_steps(root_above(farthest) + 3);
     source->rim = (int32_t)rim;
     source->reach = (int32_t)(source->lattice == SNOW_AGGREGATE_HEXAGONAL ? rim * 37 / 32 + 1 : rim);
     source->far = is_in_space(source) ? far_in_space(rim) : far_in_plane(rim);
+    source->safe = source->far / 2 - source->reach;
 }
 
 /* A row of the vessel; on the hexagonal lattice a site on a mirror stands for one, each other for two. */

@@ -31,6 +31,7 @@ typedef struct snow_source_of_walkers {
     int32_t rim;               /* all special sites are nearer to the origin, or lower, than this */
     int32_t reach;             /* the same in lattice distance */
     int64_t far;               /* beyond this a walker is sent back */
+    int64_t safe;              /* one that is no more than this clear of the cluster, in lattice distance, is not */
 } snow_source_of_walkers;
 
 /* Sets the distances for a cluster whose filled sites lie at squared distances
@@ -49,7 +50,7 @@ snow_site snow_source_return(const snow_source_of_walkers *source, snow_site sit
 
 /* Hexagonal lattice: from the middle of an empty hexagon to a site of a blurred
    circle inside. The lattice's kernel differs from a logarithm by terms of
-   cos(6 phi)/r^4 there: less than 10^-9 for the radii used, 385 and more. */
+   cos(6 phi)/r^4 there: less than 10^-9 for the radii used, 257 and more. */
 snow_site snow_source_circle(snow_site site, int32_t radius, snow_draws *draws);
 
 #endif

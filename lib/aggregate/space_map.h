@@ -51,9 +51,9 @@ typedef struct snow_space_map {
     snow_pool pages;
     snow_pool lines; /* with matter, if that is kept */
     bool keeps_matter;
-    uint8_t apart[16][9][16]; /* distances in a layer of blocks: from a place in a page to the places of the pages round it */
+    uint8_t apart[16][9][16]; /* in a layer: from a place in a page to those of the pages round it */
     uint64_t far_changes;     /* of what is known of tiles and cubes, so far */
-    snow_space_word (*print)[27]; /* for each place in a block: what a filled site does to the words of the blocks round it */
+    snow_space_word (*print)[27]; /* for each place in a block: what a filled site does to the words round it */
 } snow_space_map;
 
 snow_status snow_space_map_start(snow_space_map *map, snow_heap *heap, const snow_exits *exits, bool keeps_matter,
