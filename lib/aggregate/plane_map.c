@@ -7,7 +7,8 @@
 enum {
     NEAR_REACH = SNOW_PLANE_NEAR,
     FAR_REACH = 15, /* patches, tiles, squares */
-    BEYOND = FAR_REACH + 1
+    BEYOND = FAR_REACH + 1,
+    MARGIN = 16 /* of the table of distances */
 };
 
 /* Blocks apart: a block d away leaves (d − 1) blocks free between. */
@@ -147,9 +148,10 @@ static void make_classes(snow_plane_map *map, const snow_exits *exits)
 
 static void make_distances(snow_plane_map *map)
 {
+    memset(map->apart, 127, sizeof map->apart);
     for (int j = -FAR_REACH; j <= FAR_REACH; j++)
         for (int i = -FAR_REACH; i <= FAR_REACH; i++)
-            map->apart[j + FAR_REACH][i + FAR_REACH] = (uint8_t)apart(map->lattice, i, j);
+            map->apart[j + FAR_REACH][i + FAR_REACH + MARGIN] = (uint8_t)apart(map->lattice, i, j);
 }
 
 snow_status snow_plane_map_start(snow_plane_map *map, snow_heap *heap, const snow_exits *exits, bool keeps_matter,
@@ -218,12 +220,16 @@ static bool are_known(const _Atomic uint8_t *known, const uint8_t *bound)
 /* The lesser of each two. */
 static void lower(_Atomic uint8_t *known, const uint8_t *bound, int64_t count)
 {
-    for (int64_t i = 0; i < count; i++) {
-        while (i + 8 <= count && are_known(known + i, bound + i))
-            i += 8;
-        if (i < count && bound[i] < SNOW_MAP_GET(known[i]))
+    for (int64_t i = 0; i < count; i++)
+        if (bound[i] < SNOW_MAP_GET(known[i]))
             SNOW_MAP_PUT(known[i], bound[i]);
-    }
+}
+
+static void lower_eights(_Atomic uint8_t *known, const uint8_t *bound, int64_t count)
+{
+    for (int64_t i = 0; i < count; i += 8)
+        if (!are_known(known + i, bound + i))
+            lower(known + i, bound + i, 8);
 }
 
 /* The block (i, j) has got its first special site. */
@@ -231,14 +237,16 @@ static void spread_near(snow_plane_map *map, int64_t i, int64_t j)
 {
     int64_t first_row = at_least(j - NEAR_REACH, 0);
     int64_t last_row = at_most(j + NEAR_REACH, (int64_t)map->box.rows * 16 - 1);
-    int64_t first = at_least(i - NEAR_REACH, 0);
-    int64_t last = at_most(i + NEAR_REACH, (int64_t)map->box.columns * 16 - 1);
-    for (int64_t start = first; start <= last; start += 16 - start % 16) {
-        int64_t count = at_most(16 - start % 16, last + 1 - start);
-        for (int64_t row = first_row; row <= last_row; row++) {
-            snow_plane_page *page = page_of(map, start / 16, row / 16);
-            const uint8_t *bound = &map->apart[row - j + FAR_REACH][start - i + FAR_REACH];
-            lower(&page->near[row % 16 * 16 + start % 16], bound, count);
+    int64_t first_tile = at_least(i - NEAR_REACH, 0) / 16;
+    int64_t last_tile = at_most(i + NEAR_REACH, (int64_t)map->box.columns * 16 - 1) / 16;
+    for (int64_t tile = first_tile; tile <= last_tile; tile++) {
+        for (int64_t row = first_row; row <= last_row;) {
+            snow_plane_page *page = page_of(map, tile, row / 16);
+            int64_t end = at_most(row - row % 16 + 16, last_row + 1);
+            for (; row < end; row++) {
+                const uint8_t *bound = &map->apart[row - j + FAR_REACH][tile * 16 - i + FAR_REACH + MARGIN];
+                lower_eights(&page->near[row % 16 * 16], bound, 16);
+            }
         }
     }
 }
@@ -251,8 +259,10 @@ static void spread_patch(snow_plane_map *map, int64_t i, int64_t j)
     int64_t last = at_most(i + FAR_REACH, columns - 1);
     int64_t last_row = at_most(j + FAR_REACH, (int64_t)map->box.rows * 4 - 1);
     for (int64_t y = at_least(j - FAR_REACH, 0); y <= last_row; y++) {
-        const uint8_t *bound = &map->apart[y - j + FAR_REACH][first - i + FAR_REACH];
-        lower(&map->patch[y * columns + first], bound, last + 1 - first);
+        const uint8_t *bound = &map->apart[y - j + FAR_REACH][first - i + FAR_REACH + MARGIN];
+        int64_t eights = (last + 1 - first) / 8 * 8;
+        lower_eights(&map->patch[y * columns + first], bound, eights);
+        lower(&map->patch[y * columns + first + eights], bound + eights, last + 1 - first - eights);
     }
     map->far_changes++;
 }
@@ -264,7 +274,7 @@ static void spread_square(snow_plane_map *map, int64_t i, int64_t j)
     int64_t first = at_least(i - FAR_REACH, 0);
     int64_t last = at_most(i + FAR_REACH, columns - 1);
     for (int64_t y = at_least(j - FAR_REACH, 0); y <= at_most(j + FAR_REACH, rows - 1); y++) {
-        const uint8_t *bound = &map->apart[y - j + FAR_REACH][first - i + FAR_REACH];
+        const uint8_t *bound = &map->apart[y - j + FAR_REACH][first - i + FAR_REACH + MARGIN];
         lower(&map->square[y * columns + first], bound, last + 1 - first);
     }
 }
@@ -276,7 +286,7 @@ static void spread_tile(snow_plane_map *map, int64_t i, int64_t j)
         for (int64_t x = at_least(i - FAR_REACH, 0); x <= at_most(i + FAR_REACH, (int64_t)map->box.columns - 1); x++) {
             _Atomic uintptr_t *entry = &map->tile[(size_t)y * map->box.columns + (size_t)x];
             uintptr_t known = SNOW_MAP_GET(*entry);
-            uintptr_t d = map->apart[y - j + FAR_REACH][x - i + FAR_REACH];
+            uintptr_t d = map->apart[y - j + FAR_REACH][x - i + FAR_REACH + MARGIN];
             if (known <= BEYOND && d < known)
                 SNOW_MAP_PUT(*entry, d);
         }

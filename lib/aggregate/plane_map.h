@@ -66,7 +66,7 @@ typedef struct snow_plane_map {
     bool keeps_matter;
     snow_aggregate_lattice lattice;
     uint32_t print[16][9];     /* for each place in a block: what a filled site does to the words round it */
-    uint8_t apart[31][31];     /* distances up to 15, from the middle */
+    uint8_t apart[31][31 + 32]; /* distances up to 15, from the middle; at both sides 16 columns of more */
     uint64_t far_changes;      /* of what is known of patches, tiles and squares, so far */
 } snow_plane_map;
 
