@@ -16,8 +16,7 @@
  * scene one merging of two clusters or more. snow_run() ends at a mass
  * (`frozen`), a radius (`tip_radius`), a height (`height`), a number of steps
  * (`max_steps`), where the scene itself ends (`rim`), when one cluster is left
- * (`still`), and in any case when nothing more can be launched
- * (::SNOW_STOP_FULL). By default it ends after 10,000 steps.
+ * (`still`), and in any case when nothing more can join (::SNOW_STOP_FULL). By default it ends after 10,000 steps.
  *
  * **Sites.** A ::snow_site is (x, y) in the plane, with z = 0, and (x, y, z) in
  * space. On the square and the cubic lattice these are Cartesian; on the
@@ -194,9 +193,9 @@ SNOW_API const char *snow_aggregate_preset_source(size_t index);
  * shore scene the hardness that is left), ::SNOW_FIELD_RECEPTIVE (1 where a site
  * is filled or next to one), ::SNOW_FIELD_FREEZE_STEP (the step in which the
  * site was filled, 0 for seeds). The last needs record_order; with
- * ::SNOW_AGGREGATE_ENGINE_JUMPS all need it but inside. None can be set. Mass and
- * symmetry defect follow from them; pictures (render.h) are for the hexagonal
- * lattice.
+ * ::SNOW_AGGREGATE_ENGINE_JUMPS all need it but inside. None can be set. The
+ * mass follows from them; symmetry defect and pictures (render.h) are for the
+ * hexagonal lattice.
  *
  * Memory: 8 bytes a particle, and for the walk about 4 more with
  * ::SNOW_AGGREGATE_ENGINE_JUMPS, else a byte for each site of the box about the
@@ -234,6 +233,9 @@ SNOW_API snow_status snow_aggregate_params_of(const snow_grid *grid, snow_aggreg
  * Particles are numbered in the order in which they joined, from 0; seeds come
  * first. In the shore scene they are the cells that were washed away. In the
  * cluster–cluster scene the numbers have no order, and sites change.
+ *
+ * snow_aggregate_parents(), snow_aggregate_growth() and snow_aggregate_sample()
+ * ask the grid's allocator for memory, and give it back before they return.
  * @{
  */
 
@@ -418,7 +420,8 @@ typedef struct snow_aggregate_chance {
  * @param capacity how many the array holds.
  * @param count receives how many there are; may be NULL unless chances is.
  * @return ::SNOW_OK, ::SNOW_ERROR_NULL; ::SNOW_ERROR_BUFFER when capacity is
- *         too small; ::SNOW_ERROR_TOO_LARGE for more than 4,096 unknowns;
+ *         too small; ::SNOW_ERROR_TOO_LARGE for more than 4,096 unknowns, or a
+ *         box round the cluster of more than 2^24 sites;
  *         ::SNOW_ERROR_UNSUPPORTED for other scenes; ::SNOW_ERROR_NO_MEMORY,
  *         ::SNOW_ERROR_MEMORY_LIMIT. Cost: the third power of the perimeter.
  */

@@ -5,7 +5,8 @@
  * A grid is made by its model's create call (snow_reiter_create()), stepped,
  * asked, saved, loaded and destroyed by the calls of this page.
  *
- * **Cells.** Every model lives on the hexagonal lattice in axial coordinates
+ * **Cells.** Models live on the hexagonal lattice (aggregation: see aggregate.h)
+ * in axial coordinates
  * (q, r); the six neighbours of a cell are (±1, 0), (0, ±1), (1, −1), (−1, 1)
  * and its squared Euclidean distance from the origin, in lattice spacings, is
  * q² + q·r + r². Drawn with x to the right and y down, cell (q, r) stands at
@@ -145,8 +146,8 @@ typedef int (*snow_progress)(void *context, const snow_grid *grid, const snow_su
  *
  * All counts are those of the grid, not of the run: a run that was stopped and
  * is started again with the same conditions goes on to the same end. When
- * several hold after the same step, the reason is the first of: rim, full,
- * radius, height, frozen, still, steps, cancelled, time.
+ * several hold after the same step, the reason is the first of: rim, radius,
+ * height, frozen, still, full, steps, cancelled, time.
  */
 typedef struct snow_stop {
     size_t struct_size;     /**< Set by snow_stop_init(). */
@@ -368,6 +369,7 @@ SNOW_API snow_status snow_field_set(snow_grid *grid, snow_field field, const sno
  * @param vapour receives the sum over the cells that are not frozen; may be NULL.
  * @param ice receives the sum over the frozen cells; may be NULL.
  * @return ::SNOW_OK; ::SNOW_ERROR_NULL when grid is, or both others are;
+ *         what snow_cell_value() says of ::SNOW_FIELD_VALUE;
  *         ::SNOW_ERROR_TOO_LARGE where snow_domain_bounds() says so. Cost:
  *         proportional to the domain. The sums are compensated: their error is
  *         about one unit in the last place.
@@ -382,7 +384,9 @@ SNOW_API snow_status snow_mass(const snow_grid *grid, double *vapour, double *ic
  *        hexagon about the origin, over the images that lie in the interior;
  *        exactly 0 for a symmetric crystal.
  * @return ::SNOW_OK or ::SNOW_ERROR_NULL; ::SNOW_ERROR_TOO_LARGE where
- *         snow_domain_bounds() says so. Cost: twelve reads a cell.
+ *         snow_domain_bounds() says so; ::SNOW_ERROR_UNSUPPORTED where cells are
+ *         no hexagons; what snow_cell_value() says of ::SNOW_FIELD_VALUE. Cost:
+ *         twelve reads a cell.
  */
 SNOW_API snow_status snow_symmetry_defect(const snow_grid *grid, double *defect);
 

@@ -6,8 +6,7 @@ enum { SLICE = 4096, PATIENCE = 1 << 16 };
 
 bool snow_aggregate_stops(const snow_grid *grid, const snow_stop *stop)
 {
-    return grid->census.full || grid->census.still ||
-           (stop != NULL && snow_crystal_stops(grid, stop) != SNOW_STOP_NONE);
+    return grid->census.full || (stop != NULL && snow_crystal_stops(grid, stop) != SNOW_STOP_NONE);
 }
 
 static snow_status make_room(snow_grid *grid)
@@ -32,11 +31,11 @@ static snow_status send_walker(snow_grid *grid, bool *joined)
     model->walkers++;
     *joined = *joined && snow_aggregate_hit(grid, end);
     if (*joined) {
-        status = model->scene->place(grid, end);
+        model->scene->place(grid, end); /* there is room */
         snow_aggregate_join(grid, end);
         grid->census.steps++;
     }
-    return status;
+    return SNOW_OK;
 }
 
 static snow_status send_walkers(snow_grid *grid, int64_t most, const snow_stop *stop)
@@ -57,7 +56,7 @@ static snow_status send_walkers(snow_grid *grid, int64_t most, const snow_stop *
 snow_status snow_aggregate_advance(snow_grid *grid, int64_t most, const snow_stop *stop)
 {
     const aggregate *model = aggregate_of(grid);
-    if (grid->census.full || grid->census.still)
+    if (grid->census.full)
         return SNOW_ERROR_FULL;
     most = most < SLICE ? most : SLICE;
     uint64_t room = AGGREGATE_MOST_PARTICLES - model->sites.count;

@@ -12,6 +12,7 @@ static void tell(snow_grid *grid)
     const clusters *self = clusters_of(grid);
     grid->census.frozen = self->largest;
     grid->census.still = self->lives <= 1;
+    grid->census.full = self->lives <= 1;
 }
 
 /* Merges a cluster with those that are listed as touched, each with the chance of sticking; returns how

@@ -151,9 +151,10 @@ void snow_clusters_count(clusters *self, cluster *to, uint32_t particle)
 {
     snow_site at = self->position[particle];
     bool first = to->mass == 0;
-    to->least = first ? at : (snow_site){lesser(to->least.x, at.x), lesser(to->least.y, at.y), lesser(to->least.z, at.z)};
-    to->greatest = first ? at : (snow_site){greater(to->greatest.x, at.x), greater(to->greatest.y, at.y),
-                                            greater(to->greatest.z, at.z)};
+    snow_site low = first ? at : to->least;
+    snow_site high = first ? at : to->greatest;
+    to->least = (snow_site){lesser(low.x, at.x), lesser(low.y, at.y), lesser(low.z, at.z)};
+    to->greatest = (snow_site){greater(high.x, at.x), greater(high.y, at.y), greater(high.z, at.z)};
     int64_t x = at.x;
     int64_t y = at.y;
     int64_t z = at.z;

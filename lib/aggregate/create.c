@@ -34,6 +34,7 @@ static snow_status build(snow_grid *grid, const snow_aggregate_params *params)
     if (params->scene == SNOW_AGGREGATE_OFF_LATTICE)
         model->params.lattice = SNOW_AGGREGATE_SQUARE;
     model->scene = choose_scene(params);
+    grid->squares = model->params.lattice != SNOW_AGGREGATE_HEXAGONAL;
     model->sites.space = aggregate_is_space(params);
     model->obstacles.space = model->sites.space;
     return SNOW_OK;

@@ -41,9 +41,11 @@ static snow_status cover(snow_grid *grid, int32_t row)
     return snow_cells_cover(&self->cells, &grid->heap, low, high);
 }
 
+/* Particles join within one row of those that are there, or of what holds them. */
 snow_status snow_fall_prepare(snow_grid *grid)
 {
-    return cover(grid, aggregate_of(grid)->sites.count > 0 ? aggregate_of(grid)->high.y : 0);
+    const aggregate *model = aggregate_of(grid);
+    return cover(grid, model->sites.count > 0 ? model->high.y + 1 : 0);
 }
 
 static void raise_canopy(fall *self, snow_site site)

@@ -27,10 +27,11 @@ static void widen_bounds(aggregate *model, snow_census *census, snow_site site)
 static void look_at_rim(const aggregate *model, snow_census *census, snow_site site)
 {
     const double reach = aggregate_reach(&model->params);
+    const double end = model->params.end_radius;
     const snow_aggregate_params *params = &model->params;
     int32_t last_row = params->height - 1;
     switch (params->scene) {
-    case SNOW_AGGREGATE_LABORATORY: census->rim |= census->tip_square >= (double)params->end_radius * params->end_radius; break;
+    case SNOW_AGGREGATE_LABORATORY: census->rim |= census->tip_square >= end * end; break;
     case SNOW_AGGREGATE_LINE:
         census->rim |= aggregate_height(model, site) >= last_row;
         census->full |= census->rim;

@@ -14,7 +14,8 @@ typedef struct preset {
 
 /* The program's screen was 256 dots wide; its figures do not say their sizes. */
 static const preset presets[] = {
-    {"witten-sander", "Witten and Sander 1981: one seed, walkers from infinity", {.scene = SNOW_AGGREGATE_WITTEN_SANDER}},
+    {"witten-sander", "Witten and Sander 1981: one seed, walkers from infinity",
+     {.scene = SNOW_AGGREGATE_WITTEN_SANDER}},
     {"shore", SHIPILEVSKY "fig. 1: shore line",
      {.scene = SNOW_AGGREGATE_SHORE, .height = 192, .hardness_least = 1, .hardness_greatest = 8}},
     {"segment", SHIPILEVSKY "fig. 2: electrolysis on a short cathode",

@@ -25,9 +25,12 @@ static snow_status cover(snow_grid *grid, snow_site low, snow_site high)
                             (snow_site){high.x + MARGIN, high.y + MARGIN, 0});
 }
 
+/* Particles join within one cell of those that are there. */
 static snow_status prepare(snow_grid *grid)
 {
-    return cover(grid, aggregate_of(grid)->low, aggregate_of(grid)->high);
+    snow_site low = aggregate_of(grid)->low;
+    snow_site high = aggregate_of(grid)->high;
+    return cover(grid, (snow_site){low.x - 1, low.y - 1, 0}, (snow_site){high.x + 1, high.y + 1, 0});
 }
 
 static snow_status place(snow_grid *grid, snow_site site)

@@ -70,7 +70,8 @@ static snow_status check_seed(const snow_grid *grid, const snow_order *barred, s
     const aggregate *model = aggregate_of(grid);
     if (!is_in_domain(grid, site))
         return SNOW_ERROR_AGGREGATE_SEED;
-    bool beyond = model->params.scene == SNOW_AGGREGATE_LABORATORY && farthest(model, 0, site) >= model->params.end_radius;
+    bool laboratory = model->params.scene == SNOW_AGGREGATE_LABORATORY;
+    bool beyond = laboratory && farthest(model, 0, site) >= model->params.end_radius;
     if (beyond || blocks_launch(model, site))
         return SNOW_ERROR_AGGREGATE_LAUNCH;
     if (snow_order_find(barred, &model->obstacles, site) >= 0)

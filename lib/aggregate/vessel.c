@@ -65,7 +65,8 @@ bool snow_vessel_has(const snow_aggregate_params *params, snow_site site)
     bool hexagonal = params->lattice == SNOW_AGGREGATE_HEXAGONAL;
     int32_t height = space ? site.z : site.y;
     int64_t across = hexagonal ? 2 * (int64_t)site.x + site.y : site.x;
-    return height >= 0 && height < params->height && across >= 0 && across < (hexagonal ? 2 : 1) * (int64_t)params->width &&
+    int64_t columns = (hexagonal ? 2 : 1) * (int64_t)params->width;
+    return height >= 0 && height < params->height && across >= 0 && across < columns &&
            (!space || (site.y >= 0 && site.y < params->depth));
 }
 

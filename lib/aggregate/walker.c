@@ -63,8 +63,8 @@ static snow_site scaled_site(snow_aggregate_lattice lattice, snow_point point, d
     return snow_aggregate_site_of(lattice, (snow_point){point.x * radius, point.y * radius, point.z * radius});
 }
 
-/* Where Brownian motion from outside first meets the sphere, which a walker at distance d ever meets with chance radius/d; otherwise
-   it is gone, and another one comes from infinity. */
+/* Where Brownian motion from outside first meets the sphere, which a walker at distance d ever does with chance
+   radius/d; otherwise it is gone, and another one comes from infinity. */
 static snow_point hit_sphere(snow_stream *stream, snow_point from, double radius)
 {
     double distance = sqrt(from.x * from.x + from.y * from.y + from.z * from.z);

@@ -86,6 +86,7 @@ struct snow_grid {
     snow_team *team;      /* NULL: one thread, or the caller's loop */
     snow_domain domain;
     snow_census census;
+    bool squares; /* cells are squares, not hexagons */
     bool busy; /* a progress callback is running */
 };
 
