@@ -116,15 +116,15 @@ static void sites_that_are_shut_in_have_no_chance(void **state)
 static void walks_end_on_known_clusters_as_they_should(void **state)
 {
     (void)state;
-    check_known_clusters(SNOW_AGGREGATE_ENGINE_JUMPS, 20000, 2000);
-    check_known_clusters(SNOW_AGGREGATE_ENGINE_STEPS, 1000, 300);
+    check_known_clusters(SNOW_AGGREGATE_ENGINE_JUMPS, 20000, 1000);
+    check_known_clusters(SNOW_AGGREGATE_ENGINE_STEPS, 1000, 200);
 }
 
 static void walks_end_on_a_grown_cluster_as_they_should(void **state)
 {
     (void)state;
-    check_grown_cluster(SNOW_AGGREGATE_ENGINE_JUMPS, 50000, 10000);
-    check_grown_cluster(SNOW_AGGREGATE_ENGINE_STEPS, 2000, 300);
+    check_grown_cluster(SNOW_AGGREGATE_ENGINE_JUMPS, 50000, 3000);
+    check_grown_cluster(SNOW_AGGREGATE_ENGINE_STEPS, 1000, 200);
 }
 
 /* With p < 1 there is no closed form: jumps against single steps. */

@@ -5,7 +5,7 @@
 static const double pi = 3.14159265358979323846;
 static const double euler = 0.57721566490153286061;
 
-enum { REACH = 64, NODES = 192 };
+enum { NODES = 192 };
 
 /* Of Gauss and Legendre's rule on [0, 1], the node with this number. */
 static void find_node(int number, double *node, double *weight)
@@ -64,7 +64,7 @@ static size_t index_of(int32_t along, int32_t across)
 /* 1 - e^(-decay along) cos(angle across), without loss where it is small. */
 static void add_wave(double *near, int32_t reach, wave one)
 {
-    double versine[REACH];
+    double versine[SNOW_POTENTIAL_REACH];
     for (int32_t across = 0; across < reach; across++) {
         double half = sin(one.angle * across / 2);
         versine[across] = 2 * half * half;
@@ -90,7 +90,7 @@ static void fill_plane(double *near, int32_t reach, snow_aggregate_lattice latti
 snow_status snow_potential_start(snow_potential *potential, snow_heap *heap, snow_aggregate_lattice lattice,
                                  int64_t extent)
 {
-    int32_t reach = extent < REACH ? (int32_t)extent + 1 : REACH;
+    int32_t reach = extent < SNOW_POTENTIAL_REACH ? (int32_t)extent + 1 : SNOW_POTENTIAL_REACH;
     size_t side = (size_t)reach;
     bool space = lattice == SNOW_AGGREGATE_CUBIC;
     size_t count = space ? side * (side + 1) * (side + 2) / 6 : side * (side + 1) / 2;

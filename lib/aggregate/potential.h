@@ -10,14 +10,16 @@
 
 typedef struct snow_potential {
     snow_aggregate_lattice lattice;
-    int32_t reach; /* the table goes to coordinates below this */
+    int32_t reach; /* the table goes to coordinates below this, at most SNOW_POTENTIAL_REACH */
     double *near;
 } snow_potential;
+
+enum { SNOW_POTENTIAL_REACH = 64 };
 
 /* No value is farther from the truth than this. */
 static const double snow_potential_error = 0x1p-47;
 
-/* For sites whose coordinates, r + q included, differ by at most so much. */
+/* For sites whose coordinates (hexagonal: their sums, too) differ by at most so much; the table can be shorter. */
 snow_status snow_potential_start(snow_potential *potential, snow_heap *heap, snow_aggregate_lattice lattice,
                                  int64_t extent);
 void snow_potential_end(snow_potential *potential, snow_heap *heap);

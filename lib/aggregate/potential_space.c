@@ -5,8 +5,6 @@
 
 #include <math.h>
 
-enum { REACH = 64 };
-
 /* e^-t I_n(t) for n < count by Miller's backward recurrence of their ratios; their sum over all whole n is 1. */
 static void list_bessel(double t, double *bessel, int32_t count)
 {
@@ -54,7 +52,7 @@ void snow_potential_fill_space(double *near, int32_t reach)
 {
     const double step = 0.25;
     const double late = 4000;
-    double bessel[REACH];
+    double bessel[SNOW_POTENTIAL_REACH];
     for (int32_t i = -150; i <= 300; i++) {
         double t = exp(step * i);
         if (t / 3 < late)
