@@ -14,8 +14,8 @@ static void a_million_walks_end_as_they_should(void **state)
 static void many_single_steps_end_as_they_should(void **state)
 {
     (void)state;
-    check_known_clusters(SNOW_AGGREGATE_ENGINE_STEPS, 100000, 5000);
-    check_grown_cluster(SNOW_AGGREGATE_ENGINE_STEPS, 20000, 5000);
+    check_known_clusters(SNOW_AGGREGATE_ENGINE_STEPS, 30000, 2000);
+    check_grown_cluster(SNOW_AGGREGATE_ENGINE_STEPS, 10000, 2000);
 }
 
 enum { MOST_MASSES = 16 };
