@@ -1,79 +1,71 @@
 /*
- * snowgrowth-accuracy: work against precision. Every setting grows a scene as fast as it can; its vapour and its ice
+ * snowgrowth-accuracy: work against precision. Every variant grows a scene as fast as it can; its vapour and its ice
  * are then held, step by step, against the same scene in double-double arithmetic. README.md tells how to read the
  * figures.
  */
 #include "arguments.h"
-#include "course.h"
 #include "csv.h"
-#include "variant.h"
+#include "settings.h"
+#include "truth.h"
 
 #include <errno.h>
 #include <getopt.h>
 #include <inttypes.h>
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 const char *const program_name = "snowgrowth-accuracy";
 
-static const double patience = 5.0; /* seconds after which a run is not repeated */
+static const double patience = 5.0;       /* seconds after which a variant is not timed again */
+static const double least_seconds = 0.02; /* of one variant in one round */
 
-enum { MOST_SCENES = 64, MOST_MARKS = 16 };
+enum { MOST_SCENES = 64 };
 
-static const char *const usual_scenes[] = {"dendrite-r100", "star",      "sector",      "plate",
+static const char *const usual_scenes[] = {"dendrite-r100", "star",        "plate-r60",   "sector",
                                            "near-tie",      "alpha-0.5", "alpha-2.003", "alpha-2.6"};
-static const char *const settings[] = {"reference", "rows", "plain"};
 
-static const char csv_columns[] = "scene,setting,seconds,mcells,stop_step,stop_difference,frozen,first_difference,"
-                                  "differing_cells,step,max_error,mean_error";
+static const char csv_columns[] =
+    "scene,engine,precision,symmetry,tolerance,isa,threads,mcells,seconds,stop_step,stop_difference,frozen,"
+    "first_difference,differing_cells,step,max_error,mean_error";
 
 typedef struct plan {
     snow_scene scenes[MOST_SCENES];
     size_t scene_count;
-    int64_t marks[MOST_MARKS]; /* steps to compare at, ascending */
-    size_t mark_count;
-    int64_t repeats;
+    variant_list variants;
+    mark_list marks; /* steps to compare at */
+    int64_t rounds;
     const char *csv_path;
     const char *date;
 } plan;
 
-/* A scene in double-double arithmetic. */
-typedef struct truth {
-    outcome result;
-    size_t size;
-    uint64_t cells;
-    int64_t marks[MOST_MARKS + 1]; /* those before the stop, and the stop */
-    size_t mark_count;
-    double *inside;
-    double *vapour; /* one field for each mark */
-    double *freeze_steps;
-} truth;
-
-/* How far a setting is from the truth. */
-typedef struct distance {
-    outcome result;
-    double max_error[MOST_MARKS + 1];
-    double mean_error[MOST_MARKS + 1];
-    int64_t first_difference; /* first step with another ice set; -1: none */
-    uint64_t differing_cells; /* at the truth's stop */
-} distance;
+/* What one variant did with one scene. */
+typedef struct figure {
+    variant way;
+    outcome result; /* of the shortest run */
+    double spent;   /* seconds */
+    bool failed;
+    distance from;
+} figure;
 
 static void print_help(void)
 {
     printf("usage: %s [options]\n"
-           "Grows named scenes with each engine and with the plain program, and reports their time and their\n"
-           "distance from double-double arithmetic: greatest and mean error of the vapour at chosen steps and at\n"
-           "the stop, first step in which the ice differs, cells that differ at the stop, difference of the stop.\n\n"
-           "  --list          the scenes, one a line\n"
-           "  --scene NAME    only this scene; may be repeated\n"
-           "  --at LIST       steps to compare at, ascending (default: 1,10,100,1000)\n"
-           "  --repeat N      timed runs of each setting, the shortest counts; none begins after 5 s (default: 3)\n"
-           "  --csv FILE      append the figures to FILE\n"
-           "  --date TEXT     date to note in FILE\n"
-           "  --help          this text\n",
-           program_name);
+           "Grows named scenes with each variant asked for, and reports its time and its distance from\n"
+           "double-double arithmetic: greatest and mean error of the vapour at chosen steps and at the stop,\n"
+           "first step in which the ice differs, cells that differ at the stop, difference of the stop.\n\n"
+           "  --list             the scenes, one a line\n"
+           "  --scene NAME       only this scene; may be repeated\n"
+           "%s"
+           "                     by default plain, reference and rows in all their settings, with tolerances\n"
+           "                     0, 1e-16, 1e-15 ... 1e-4; those above 0 with the automatic instruction set only\n"
+           "  --at LIST          steps to compare at, ascending (default: 10,100,1000)\n"
+           "  --repeat N         timed rounds over all variants, the shortest run counts; a variant that took\n"
+           "                     5 s is not timed again (default: 5)\n"
+           "  --csv FILE         append the figures to FILE\n"
+           "  --date TEXT        date to note in FILE\n"
+           "  --help             this text\n",
+           program_name, settings_help);
 }
 
 static void add_scene(plan *work, const char *name)
@@ -83,24 +75,44 @@ static void add_scene(plan *work, const char *name)
     work->scenes[work->scene_count++] = arguments_scene(name);
 }
 
-static void read_marks(plan *work, const char *list)
+static void read_marks(mark_list *marks, const char *list)
 {
-    char word[32];
-    work->mark_count = 0;
-    while (arguments_next_word(&list, word, sizeof word)) {
-        if (work->mark_count == MOST_MARKS)
+    marks->count = 0;
+    for (char word[32]; arguments_next_word(&list, word, sizeof word);) {
+        if (marks->count == MOST_MARKS)
             arguments_fail("--at takes at most %d steps", MOST_MARKS);
-        int64_t least = work->mark_count == 0 ? 1 : work->marks[work->mark_count - 1] + 1;
-        work->marks[work->mark_count++] = arguments_integer("--at", word, least, INT64_MAX);
+        int64_t least = marks->count == 0 ? 1 : marks->steps[marks->count - 1] + 1;
+        marks->steps[marks->count++] = arguments_integer("--at", word, least, INT64_MAX);
+    }
+}
+
+/* Tolerances give the same bits with every instruction set, so one is enough for them. */
+static void add_variants(variant_list *variants, const setting_lists *words)
+{
+    variant_list all = {0};
+    setting_lists automatic = *words;
+    automatic.isas = "auto";
+    settings_add(&all, words);
+    size_t with_isas = all.count;
+    settings_add(&all, &automatic);
+    for (size_t i = 0; i < all.count; i++) {
+        bool tolerant = all.ways[i].tolerance > 0.0;
+        if (tolerant == (i >= with_isas))
+            variants->ways[variants->count++] = all.ways[i];
     }
 }
 
 static void read_arguments(plan *work, int count, char **arguments)
 {
-    enum { LIST, SCENE, AT, REPEAT, CSV, DATE, HELP };
+    enum { LIST, SCENE, ENGINE, PRECISION, SYMMETRY, TOLERANCE, ISA, AT, REPEAT, CSV, DATE, HELP };
     static const struct option options[] = {
         {"list", no_argument, NULL, LIST},
         {"scene", required_argument, NULL, SCENE},
+        {"engine", required_argument, NULL, ENGINE},
+        {"precision", required_argument, NULL, PRECISION},
+        {"symmetry", required_argument, NULL, SYMMETRY},
+        {"tolerance", required_argument, NULL, TOLERANCE},
+        {"isa", required_argument, NULL, ISA},
         {"at", required_argument, NULL, AT},
         {"repeat", required_argument, NULL, REPEAT},
         {"csv", required_argument, NULL, CSV},
@@ -108,8 +120,16 @@ static void read_arguments(plan *work, int count, char **arguments)
         {"help", no_argument, NULL, HELP},
         {NULL, 0, NULL, 0},
     };
-    work->repeats = 3;
-    read_marks(work, "1,10,100,1000");
+    setting_lists words = {
+        .engines = "plain,reference,rows",
+        .precisions = "double,single",
+        .symmetries = "none,auto",
+        .tolerances = "0,1e-16,1e-15,1e-14,1e-13,1e-12,1e-11,1e-10,1e-9,1e-8,1e-7,1e-6,1e-5,1e-4",
+        .isas = "all",
+        .threads = "1",
+    };
+    work->rounds = 5;
+    read_marks(&work->marks, "10,100,1000");
     for (int option = 0; (option = getopt_long(count, arguments, "", options, NULL)) != -1;) {
         switch (option) {
         case LIST:
@@ -118,11 +138,26 @@ static void read_arguments(plan *work, int count, char **arguments)
         case SCENE:
             add_scene(work, optarg);
             break;
+        case ENGINE:
+            words.engines = optarg;
+            break;
+        case PRECISION:
+            words.precisions = optarg;
+            break;
+        case SYMMETRY:
+            words.symmetries = optarg;
+            break;
+        case TOLERANCE:
+            words.tolerances = optarg;
+            break;
+        case ISA:
+            words.isas = optarg;
+            break;
         case AT:
-            read_marks(work, optarg);
+            read_marks(&work->marks, optarg);
             break;
         case REPEAT:
-            work->repeats = arguments_integer("--repeat", optarg, 1, 1000);
+            work->rounds = arguments_integer("--repeat", optarg, 1, 1000);
             break;
         case CSV:
             work->csv_path = optarg;
@@ -139,99 +174,55 @@ static void read_arguments(plan *work, int count, char **arguments)
     }
     if (optind < count)
         arguments_fail("'%s' is not an option", arguments[optind]);
+    add_variants(&work->variants, &words);
     if (work->scene_count > 0)
         return;
     for (size_t i = 0; i < sizeof usual_scenes / sizeof usual_scenes[0]; i++)
         add_scene(work, usual_scenes[i]);
 }
 
-/* The shortest of so many runs; of fewer when they take long. */
-static const char *time_runs(const variant *way, const snow_scene *scene, int64_t repeats, outcome *best)
+static void complain(const snow_scene *scene, const variant *way, const char *trouble)
 {
-    double spent = 0.0;
-    for (int64_t i = 0; i < repeats && spent < patience; i++) {
+    fprintf(stderr, "%s: %s: ", program_name, scene->name);
+    settings_print(stderr, way);
+    fprintf(stderr, ": %s\n", trouble);
+}
+
+/* As many runs as fill the least time. NULL, or what went wrong. */
+static const char *time_runs(const snow_scene *scene, figure *entry)
+{
+    double until = entry->spent + least_seconds;
+    do {
         outcome result;
-        const char *trouble = variant_run(way, scene, &result);
+        const char *trouble = variant_run(&entry->way, scene, &result);
         if (trouble != NULL)
             return trouble;
-        if (i == 0 || result.seconds < best->seconds)
-            *best = result;
-        spent += result.seconds;
-    }
+        if (entry->spent == 0.0 || result.seconds < entry->result.seconds)
+            entry->result = result;
+        entry->spent += result.seconds;
+    } while (entry->spent < until);
     return NULL;
 }
 
-static void choose_marks(truth *exact, const plan *work)
+/* All variants one after the other, round after round: what disturbs the machine disturbs each alike. */
+static bool measure(const plan *work, const snow_scene *scene, const truth *exact, figure *figures, size_t count)
 {
-    exact->mark_count = 0;
-    for (size_t i = 0; i < work->mark_count && work->marks[i] < exact->result.steps; i++)
-        exact->marks[exact->mark_count++] = work->marks[i];
-    exact->marks[exact->mark_count++] = exact->result.steps;
-}
-
-static const char *watch_truth(truth *exact, course *watched)
-{
-    exact->size = course_size(watched);
-    exact->cells = course_cells(watched);
-    exact->inside = calloc(exact->size, sizeof *exact->inside);
-    exact->vapour = calloc(exact->mark_count * exact->size, sizeof *exact->vapour);
-    exact->freeze_steps = calloc(exact->size, sizeof *exact->freeze_steps);
-    if (exact->inside == NULL || exact->vapour == NULL || exact->freeze_steps == NULL)
-        return "no memory";
-    const char *trouble = course_copy_inside(watched, exact->inside);
-    for (size_t mark = 0; mark < exact->mark_count && trouble == NULL; mark++) {
-        trouble = course_advance(watched, exact->marks[mark]);
-        if (trouble == NULL)
-            trouble = course_copy_vapour(watched, exact->vapour + mark * exact->size);
+    bool done = true;
+    for (int64_t round = 0; round < work->rounds; round++) {
+        for (size_t i = 0; i < count; i++) {
+            figure *entry = &figures[i];
+            if (entry->failed || entry->spent > patience)
+                continue;
+            const char *trouble = time_runs(scene, entry);
+            if (trouble == NULL && round == 0)
+                trouble = truth_compare(exact, &entry->way, scene, &entry->from);
+            entry->failed = trouble != NULL;
+            done = done && !entry->failed;
+            if (entry->failed)
+                complain(scene, &entry->way, trouble);
+        }
     }
-    return trouble != NULL ? trouble : course_copy_freeze_steps(watched, exact->freeze_steps);
-}
-
-static void compare_vapour(const truth *exact, size_t mark, const double *vapour, distance *from)
-{
-    const double *wanted = exact->vapour + mark * exact->size;
-    double greatest = 0.0;
-    double sum = 0.0;
-    for (size_t i = 0; i < exact->size; i++) {
-        double error = exact->inside[i] * fabs(vapour[i] - wanted[i]);
-        greatest = error > greatest ? error : greatest;
-        sum += error;
-    }
-    from->max_error[mark] = greatest;
-    from->mean_error[mark] = sum / (double)exact->cells;
-}
-
-/* Two ice sets differ first in the earlier of the steps in which a cell froze in the one, and in the other. */
-static void compare_ice(const truth *exact, const double *freeze_steps, distance *from)
-{
-    from->first_difference = -1;
-    for (size_t i = 0; i < exact->size; i++) {
-        double here = freeze_steps[i];
-        double there = exact->freeze_steps[i];
-        if (here == there)
-            continue;
-        from->differing_cells += (here < 0.0) != (there < 0.0);
-        double first = here < 0.0 || (there >= 0.0 && there < here) ? there : here;
-        if (from->first_difference < 0 || first < (double)from->first_difference)
-            from->first_difference = (int64_t)first;
-    }
-}
-
-static const char *watch_setting(const truth *exact, course *watched, double *field, distance *from)
-{
-    const char *trouble = NULL;
-    for (size_t mark = 0; mark < exact->mark_count && trouble == NULL; mark++) {
-        trouble = course_advance(watched, exact->marks[mark]);
-        if (trouble == NULL)
-            trouble = course_copy_vapour(watched, field);
-        if (trouble == NULL)
-            compare_vapour(exact, mark, field, from);
-    }
-    if (trouble == NULL)
-        trouble = course_copy_freeze_steps(watched, field);
-    if (trouble == NULL)
-        compare_ice(exact, field, from);
-    return trouble;
+    return done;
 }
 
 static double rate_of(const outcome *result)
@@ -239,99 +230,80 @@ static double rate_of(const outcome *result)
     return 1e-6 * (double)result->cells * (double)result->steps / result->seconds;
 }
 
-static void print_truth(const snow_scene *scene, const truth *exact)
+static void print_heading(const snow_scene *scene, const truth *exact)
 {
     printf("\n%s: %s\n%" PRIu64 " cells; quad: %" PRId64 " steps, %" PRIu64 " frozen, %.3f s, %.1f Mcells/s\n",
-           scene->name, scene->what, exact->cells, exact->result.steps, exact->result.frozen, exact->result.seconds,
-           rate_of(&exact->result));
+           scene->name, scene->what, exact->result.cells, exact->result.steps, exact->result.frozen,
+           exact->result.seconds, rate_of(&exact->result));
+    printf("  %s |  Mcells/s | max error  mean error at the stop | ice differs from step  cells   stop\n",
+           settings_heading);
 }
 
-static void print_distance(const char *name, const truth *exact, const distance *from)
+static void print_figure(const truth *exact, const figure *entry)
 {
-    printf("  %-9s  %.3f s, %.1f Mcells/s; stop %+" PRId64 " steps; %" PRIu64 " cells differ at the stop",
-           name, from->result.seconds, rate_of(&from->result), from->result.steps - exact->result.steps,
-           from->differing_cells);
-    if (from->first_difference >= 0)
-        printf(", ice first in step %" PRId64 "\n", from->first_difference);
+    const distance *from = &entry->from;
+    size_t stop = exact->marks.count - 1;
+    printf("  ");
+    settings_print(stdout, &entry->way);
+    printf(" | %9.1f | %9.2e  %10.2e             |", rate_of(&entry->result), from->max_error[stop],
+           from->mean_error[stop]);
+    if (from->first_difference < 0)
+        printf("%22s", "never");
     else
-        printf("\n");
-    for (size_t mark = 0; mark < exact->mark_count; mark++)
-        printf("             step %6" PRId64 ": vapour off by at most %.2e, on average %.2e\n", exact->marks[mark],
-               from->max_error[mark], from->mean_error[mark]);
+        printf("%22" PRId64, from->first_difference);
+    printf(" %6" PRIu64 "  %+5" PRId64 "\n", from->differing_cells, entry->result.steps - exact->result.steps);
 }
 
-static void write_distance(FILE *csv, const snow_scene *scene, const char *name, const truth *exact,
-                           const distance *from)
+static void write_figure(FILE *csv, const snow_scene *scene, const truth *exact, const figure *entry)
 {
-    for (size_t mark = 0; mark < exact->mark_count; mark++)
+    const distance *from = &entry->from;
+    for (size_t mark = 0; mark < exact->marks.count; mark++) {
+        fprintf(csv, "%s,", scene->name);
+        settings_write(csv, &entry->way);
         fprintf(csv,
-                "%s,%s,%.6f,%.2f,%" PRId64 ",%" PRId64 ",%" PRIu64 ",%" PRId64 ",%" PRIu64 ",%" PRId64 ",%.3e,%.3e\n",
-                scene->name, name, from->result.seconds, rate_of(&from->result), from->result.steps,
-                from->result.steps - exact->result.steps, from->result.frozen, from->first_difference,
-                from->differing_cells, exact->marks[mark], from->max_error[mark], from->mean_error[mark]);
+                "%.2f,%.6f,%" PRId64 ",%" PRId64 ",%" PRIu64 ",%" PRId64 ",%" PRIu64 ",%" PRId64 ",%.3e,%.3e\n",
+                rate_of(&entry->result), entry->result.seconds, entry->result.steps,
+                entry->result.steps - exact->result.steps, entry->result.frozen, from->first_difference,
+                from->differing_cells, exact->marks.steps[mark], from->max_error[mark], from->mean_error[mark]);
+    }
 }
 
-static bool complain(const snow_scene *scene, const variant *way, const char *trouble)
+static void report(const snow_scene *scene, const truth *exact, const figure *figures, size_t count, FILE *csv)
 {
-    if (trouble != NULL)
-        fprintf(stderr, "%s: %s: %s: %s\n", program_name, scene->name, way->name, trouble);
-    return trouble == NULL;
-}
-
-static bool find_truth(const plan *work, const snow_scene *scene, truth *exact)
-{
-    variant quad;
-    variant_find("quad", &quad);
-    if (!complain(scene, &quad, time_runs(&quad, scene, 1, &exact->result)))
-        return false;
-    choose_marks(exact, work);
-    course *watched = course_start(&quad, scene);
-    const char *trouble = watched != NULL ? watch_truth(exact, watched) : "no memory";
-    course_end(watched);
-    return complain(scene, &quad, trouble);
-}
-
-static bool measure_setting(const plan *work, const snow_scene *scene, const variant *way, const truth *exact,
-                            distance *from)
-{
-    *from = (distance){.first_difference = -1};
-    if (!complain(scene, way, time_runs(way, scene, work->repeats, &from->result)))
-        return false;
-    course *watched = course_start(way, scene);
-    double *field = calloc(exact->size, sizeof *field);
-    const char *trouble =
-        watched != NULL && field != NULL ? watch_setting(exact, watched, field, from) : "no memory";
-    free(field);
-    course_end(watched);
-    return complain(scene, way, trouble);
+    print_heading(scene, exact);
+    for (size_t i = 0; i < count; i++) {
+        if (figures[i].failed)
+            continue;
+        print_figure(exact, &figures[i]);
+        if (csv != NULL)
+            write_figure(csv, scene, exact, &figures[i]);
+    }
+    fflush(stdout);
+    if (csv != NULL)
+        fflush(csv); /* the next scene may take minutes */
 }
 
 static bool bench_scene(const plan *work, const snow_scene *scene, FILE *csv)
 {
-    truth exact = {0};
-    bool done = find_truth(work, scene, &exact);
-    if (done) {
-        print_truth(scene, &exact);
-        distance none = {.result = exact.result, .first_difference = -1};
-        if (csv != NULL)
-            write_distance(csv, scene, "quad", &exact, &none);
+    static figure figures[MOST_VARIANTS + 1];
+    figure quad = {.from.first_difference = -1};
+    variant_find("quad", &quad.way);
+    truth exact;
+    const char *trouble = truth_find(&exact, scene, &work->marks);
+    if (trouble != NULL) {
+        complain(scene, &quad.way, trouble);
+        truth_free(&exact);
+        return false;
     }
-    for (size_t i = 0; done && i < sizeof settings / sizeof settings[0]; i++) {
-        variant way;
-        variant_find(settings[i], &way);
-        if (!variant_can_grow(&way, scene))
-            continue;
-        distance from;
-        done = measure_setting(work, scene, &way, &exact, &from);
-        if (done)
-            print_distance(way.name, &exact, &from);
-        if (done && csv != NULL)
-            write_distance(csv, scene, way.name, &exact, &from);
-    }
-    fflush(stdout);
-    free(exact.inside);
-    free(exact.vapour);
-    free(exact.freeze_steps);
+    quad.result = exact.result;
+    size_t count = 0;
+    figures[count++] = quad;
+    for (size_t i = 0; i < work->variants.count; i++)
+        if (variant_can_grow(&work->variants.ways[i], scene))
+            figures[count++] = (figure){.way = work->variants.ways[i]};
+    bool done = measure(work, scene, &exact, figures + 1, count - 1);
+    report(scene, &exact, figures, count, csv);
+    truth_free(&exact);
     return done;
 }
 

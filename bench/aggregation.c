@@ -304,7 +304,7 @@ static void read_arguments(plan *work, int count, char **arguments, const char *
         switch (option) {
         case PART: read_part(work, optarg); break;
         case CLUSTER: work->cluster = arguments_integer("--cluster", optarg, 2, 1000); break;
-        case SECONDS: work->seconds = arguments_seconds("--seconds", optarg); break;
+        case SECONDS: work->seconds = arguments_number("--seconds", optarg, 0.001, 1e6); break;
         case MOST: work->most = arguments_integer("--most", optarg, 10000, 1000000000); break;
         case THREADS: work->threads = (int32_t)arguments_integer("--threads", optarg, 1, 1024); break;
         case CSV: *csv_path = optarg; break;

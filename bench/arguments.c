@@ -2,7 +2,6 @@
 
 #include <errno.h>
 #include <inttypes.h>
-#include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -30,12 +29,12 @@ int64_t arguments_integer(const char *option, const char *text, int64_t least, i
     return value;
 }
 
-double arguments_seconds(const char *option, const char *text)
+double arguments_number(const char *option, const char *text, double least, double greatest)
 {
     char *end = NULL;
     double value = strtod(text, &end);
-    if (end == text || *end != '\0' || !isfinite(value) || value < 0.0)
-        arguments_fail("%s wants a number of seconds, not '%s'", option, text);
+    if (end == text || *end != '\0' || !(value >= least && value <= greatest))
+        arguments_fail("%s wants a number from %g to %g, not '%s'", option, least, greatest, text);
     return value;
 }
 

@@ -15,7 +15,7 @@ extern const char *const program_name;
 _Noreturn void arguments_fail(const char *format, ...) __attribute__((format(printf, 1, 2)));
 
 int64_t arguments_integer(const char *option, const char *text, int64_t least, int64_t greatest);
-double arguments_seconds(const char *option, const char *text);
+double arguments_number(const char *option, const char *text, double least, double greatest);
 
 /* Copies the next word of a list "a,b,c" and moves the list past it; false at the end. */
 bool arguments_next_word(const char **list, char *word, size_t size);

@@ -17,16 +17,20 @@
 
 const char *const program_name = "snowgrowth-bench";
 
-/* What one update of a cell must at least move when the field does not fit a cache: 8 bytes read, 8 written. */
-static const double update_bytes = 16.0;
+/* What one update of a cell must at least move when the field does not fit a cache: one value read, one written. */
+static double update_bytes(const variant *way)
+{
+    return way->precision == SNOW_REITER_PRECISION_SINGLE ? 2 * sizeof(float) : 2 * sizeof(double);
+}
 
 static const char csv_columns[] =
-    "scene,engine,isa,threads,cells,steps,frozen,rounds,mcells_min,mcells_median,mcells_max,ratio,bytes_per_cell,"
-    "copy_gb_per_s,copy_share,digest,check";
+    "scene,engine,precision,symmetry,tolerance,isa,threads,cells,steps,frozen,rounds,mcells_min,mcells_median,"
+    "mcells_max,ratio,bytes_per_cell,copy_gb_per_s,copy_share,digest,check";
 
 /* What one variant did with one scene. */
 typedef struct figure {
     variant way;
+    outcome wanted; /* what the pilot with the same bits gave; of no use where there is none */
     outcome result;
     bool wrong;
     double *rates; /* cell updates a second, round by round */
@@ -37,8 +41,8 @@ typedef double copy_table[MOST_THREADS + 1];
 
 static void measure_copies(const plan *work, copy_table copies)
 {
-    for (size_t i = 0; i < work->way_count; i++) {
-        int32_t threads = work->ways[i].threads;
+    for (size_t i = 0; i < work->variants.count; i++) {
+        int32_t threads = work->variants.ways[i].threads;
         if (copies[threads] > 0.0)
             continue;
         copies[threads] = copy_bandwidth(threads);
@@ -50,15 +54,11 @@ static void measure_copies(const plan *work, copy_table copies)
     }
 }
 
-static const char *isa_label(const variant *way)
-{
-    return variant_has_settings(way) ? snow_isa_name(way->isa) : "-";
-}
-
 static void complain(const snow_scene *scene, const variant *way, const char *trouble)
 {
-    fprintf(stderr, "%s: %s: engine %s, isa %s, threads %d: %s\n", program_name, scene->name, way->name, isa_label(way),
-            (int)way->threads, trouble);
+    fprintf(stderr, "%s: %s: ", program_name, scene->name);
+    settings_print(stderr, way);
+    fprintf(stderr, ": %s\n", trouble);
 }
 
 static bool same_result(const outcome *result, const outcome *wanted)
@@ -79,15 +79,13 @@ static void complain_result(const snow_scene *scene, const variant *way, const o
 
 /*
  * Grows the scene once, untimed, with the automatic engine on one thread: it warms the machine up and is what all
- * exact variants are held against. It must itself give what the scene records.
+ * variants of the same bits are held against. It must itself give what the scene records.
  */
-static bool run_pilot(snow_scene *scene, outcome *pilot)
+static bool run_pilot(snow_scene *scene, const variant *way, outcome *pilot)
 {
-    variant way;
-    variant_find("auto", &way);
-    const char *trouble = variant_run(&way, scene, pilot);
+    const char *trouble = variant_run(way, scene, pilot);
     if (trouble != NULL) {
-        complain(scene, &way, trouble);
+        complain(scene, way, trouble);
         return false;
     }
     outcome wanted = {
@@ -96,7 +94,7 @@ static bool run_pilot(snow_scene *scene, outcome *pilot)
         .digest = scene->digest != 0 ? scene->digest : pilot->digest,
     };
     if (!same_result(pilot, &wanted)) {
-        complain_result(scene, &way, pilot, &wanted);
+        complain_result(scene, way, pilot, &wanted);
         return false;
     }
     if (pilot->reason == SNOW_STOP_STILL)
@@ -104,8 +102,37 @@ static bool run_pilot(snow_scene *scene, outcome *pilot)
     return true;
 }
 
+/* Whether the variant's bits are promised at all. */
+static bool is_checked(const variant *way)
+{
+    return variant_same_bits(way, way);
+}
+
+/* What the last of the figures must give. Other bits than the pilot's need a pilot of their own. */
+static bool find_wanted(const snow_scene *scene, const variant *pilot_way, const outcome *pilot, figure *figures,
+                        size_t last)
+{
+    figure *entry = &figures[last];
+    entry->wanted = *pilot;
+    if (!is_checked(&entry->way) || variant_same_bits(&entry->way, pilot_way))
+        return true;
+    for (size_t i = 0; i < last; i++) {
+        entry->wanted = figures[i].wanted;
+        if (variant_same_bits(&entry->way, &figures[i].way))
+            return true;
+    }
+    variant own = *pilot_way;
+    own.precision = entry->way.precision;
+    own.symmetry = entry->way.symmetry;
+    own.tolerance = entry->way.tolerance;
+    const char *trouble = variant_run(&own, scene, &entry->wanted);
+    if (trouble != NULL)
+        complain(scene, &own, trouble);
+    return trouble == NULL;
+}
+
 /* One measurement: as many runs as fill the least time, each held against the pilot. */
-static bool measure(const plan *work, const snow_scene *scene, const outcome *pilot, figure *entry, size_t round)
+static bool measure(const plan *work, const snow_scene *scene, figure *entry, size_t round)
 {
     double seconds = 0.0;
     double updates = 0.0;
@@ -115,8 +142,8 @@ static bool measure(const plan *work, const snow_scene *scene, const outcome *pi
             complain(scene, &entry->way, trouble);
             return false;
         }
-        if (variant_is_exact(&entry->way) && !same_result(&entry->result, pilot)) {
-            complain_result(scene, &entry->way, &entry->result, pilot);
+        if (is_checked(&entry->way) && !same_result(&entry->result, &entry->wanted)) {
+            complain_result(scene, &entry->way, &entry->result, &entry->wanted);
             return false;
         }
         seconds += entry->result.seconds;
@@ -127,14 +154,13 @@ static bool measure(const plan *work, const snow_scene *scene, const outcome *pi
 }
 
 /* All variants one after the other, round after round: what disturbs the machine disturbs each alike. */
-static bool measure_rounds(const plan *work, const snow_scene *scene, const outcome *pilot, figure *figures,
-                           size_t count)
+static bool measure_rounds(const plan *work, const snow_scene *scene, figure *figures, size_t count)
 {
     bool right = true;
     for (size_t round = 0; round < work->rounds; round++) {
         for (size_t i = 0; i < count; i++) {
             if (!figures[i].wrong)
-                figures[i].wrong = !measure(work, scene, pilot, &figures[i], round);
+                figures[i].wrong = !measure(work, scene, &figures[i], round);
             right = right && !figures[i].wrong;
         }
     }
@@ -163,11 +189,11 @@ static spread spread_of(const figure *entry, const figure *first, size_t rounds)
     return over;
 }
 
-static const char *check_label(const snow_scene *scene, const variant *way)
+static const char *check_label(const snow_scene *scene, const figure *entry)
 {
-    if (!variant_is_exact(way))
+    if (!is_checked(&entry->way))
         return "none";
-    return scene->digest != 0 ? "recorded" : "pilot";
+    return entry->wanted.digest == scene->digest ? "recorded" : "pilot";
 }
 
 static double bytes_per_cell(const outcome *result)
@@ -175,45 +201,47 @@ static double bytes_per_cell(const outcome *result)
     return (double)result->memory / (double)result->cells;
 }
 
-static double copy_share(const spread *over, double bandwidth)
+static double copy_share(const figure *entry, const spread *over, double bandwidth)
 {
-    return 1e6 * over->median * update_bytes / bandwidth;
+    return 1e6 * over->median * update_bytes(&entry->way) / bandwidth;
 }
 
 static void print_heading(const snow_scene *scene, const outcome *pilot)
 {
     printf("\n%s: %s\n%" PRIu64 " cells, %" PRId64 " steps, %" PRIu64 " frozen, end: %s\n", scene->name, scene->what,
            pilot->cells, pilot->steps, pilot->frozen, snow_stop_name(pilot->reason));
-    printf("  engine    isa      threads | Mcells/s: min    median       max   ratio |  B/cell  %% copy |    steps   "
-           "frozen  check\n");
+    printf("  %s | Mcells/s: min    median       max   ratio |  B/cell  %% copy |    steps   frozen  check\n",
+           settings_heading);
 }
 
 static void print_figure(const snow_scene *scene, const figure *entry, const spread *over, double bandwidth)
 {
     char share[16] = "-";
     if (bandwidth > 0.0)
-        snprintf(share, sizeof share, "%.1f", 100.0 * copy_share(over, bandwidth));
-    printf("  %-9s %-8s %7d | %13.1f %9.1f %9.1f %7.2f | %7.1f %7s | %8" PRId64 " %8" PRIu64 "  %s\n", entry->way.name,
-           isa_label(&entry->way), (int)entry->way.threads, over->least, over->median, over->greatest, over->ratio,
-           bytes_per_cell(&entry->result), share, entry->result.steps, entry->result.frozen,
-           check_label(scene, &entry->way));
+        snprintf(share, sizeof share, "%.1f", 100.0 * copy_share(entry, over, bandwidth));
+    printf("  ");
+    settings_print(stdout, &entry->way);
+    printf(" | %13.1f %9.1f %9.1f %7.2f | %7.1f %7s | %8" PRId64 " %8" PRIu64 "  %s\n", over->least, over->median,
+           over->greatest, over->ratio, bytes_per_cell(&entry->result), share, entry->result.steps,
+           entry->result.frozen, check_label(scene, entry));
 }
 
 static void write_figure(FILE *csv, const snow_scene *scene, const figure *entry, const spread *over, size_t rounds,
                          double bandwidth)
 {
     const outcome *result = &entry->result;
-    fprintf(csv, "%s,%s,%s,%d,%" PRIu64 ",%" PRId64 ",%" PRIu64 ",%zu,%.2f,%.2f,%.2f,%.3f,%.2f,", scene->name,
-            entry->way.name, isa_label(&entry->way), (int)entry->way.threads, result->cells, result->steps,
+    fprintf(csv, "%s,", scene->name);
+    settings_write(csv, &entry->way);
+    fprintf(csv, "%" PRIu64 ",%" PRId64 ",%" PRIu64 ",%zu,%.2f,%.2f,%.2f,%.3f,%.2f,", result->cells, result->steps,
             result->frozen, rounds, over->least, over->median, over->greatest, over->ratio, bytes_per_cell(result));
     if (bandwidth > 0.0)
-        fprintf(csv, "%.2f,%.4f", 1e-9 * bandwidth, copy_share(over, bandwidth));
+        fprintf(csv, "%.2f,%.4f", 1e-9 * bandwidth, copy_share(entry, over, bandwidth));
     else
         fprintf(csv, ",");
     if (entry->way.plain)
-        fprintf(csv, ",,%s\n", check_label(scene, &entry->way));
+        fprintf(csv, ",,%s\n", check_label(scene, entry));
     else
-        fprintf(csv, ",%016" PRIx64 ",%s\n", result->digest, check_label(scene, &entry->way));
+        fprintf(csv, ",%016" PRIx64 ",%s\n", result->digest, check_label(scene, entry));
 }
 
 static void report(const plan *work, const snow_scene *scene, const figure *figures, size_t count,
@@ -239,21 +267,24 @@ static bool bench_scene(const plan *work, snow_scene scene, const copy_table cop
         scene.frozen = 0;
         scene.digest = 0;
     }
+    variant pilot_way;
+    variant_find("auto", &pilot_way);
     outcome pilot;
-    if (!run_pilot(&scene, &pilot))
+    if (!run_pilot(&scene, &pilot_way, &pilot))
         return false;
-    figure figures[MOST_VARIANTS] = {0};
-    double *rates = calloc(work->way_count * work->rounds, sizeof *rates);
+    static figure figures[MOST_VARIANTS];
+    double *rates = calloc(work->variants.count * work->rounds, sizeof *rates);
     if (rates == NULL)
         arguments_fail("no memory");
     size_t count = 0;
-    for (size_t i = 0; i < work->way_count; i++) {
-        if (!variant_can_grow(&work->ways[i], &scene))
+    for (size_t i = 0; i < work->variants.count; i++) {
+        if (!variant_can_grow(&work->variants.ways[i], &scene))
             continue;
-        figures[count] = (figure){.way = work->ways[i], .rates = rates + count * work->rounds};
+        figures[count] = (figure){.way = work->variants.ways[i], .rates = rates + count * work->rounds};
+        figures[count].wrong = !find_wanted(&scene, &pilot_way, &pilot, figures, count);
         count++;
     }
-    bool right = measure_rounds(work, &scene, &pilot, figures, count);
+    bool right = measure_rounds(work, &scene, figures, count);
     print_heading(&scene, &pilot);
     report(work, &scene, figures, count, copies, csv);
     free(rates);

@@ -17,10 +17,7 @@ struct course {
 
 static bool make_grid(course *watched, const variant *way, const snow_scene *scene)
 {
-    snow_reiter_params params = scene->params;
-    params.engine = way->engine;
-    params.record_freeze_steps = 1;
-    return snow_reiter_create(&params, NULL, &watched->grid) == SNOW_OK &&
+    return variant_make_grid(way, scene, true, &watched->grid) == SNOW_OK &&
            snow_domain_cells(watched->grid, &watched->cells) == SNOW_OK &&
            snow_field_copy(watched->grid, SNOW_FIELD_VAPOUR, NULL, NULL, 0, &watched->size) == SNOW_OK;
 }
@@ -33,9 +30,10 @@ static void note_frozen(course *watched)
             watched->freeze_steps[i] = (double)watched->steps;
 }
 
-static bool make_crystal(course *watched, const snow_scene *scene)
+static bool make_crystal(course *watched, const variant *way, const snow_scene *scene)
 {
-    watched->crystal = plain_create(&scene->params, watched->grid);
+    bool single = way->precision == SNOW_REITER_PRECISION_SINGLE;
+    watched->crystal = plain_create(&scene->params, single, watched->grid);
     watched->frozen = malloc(watched->size * sizeof *watched->frozen);
     watched->freeze_steps = malloc(watched->size * sizeof *watched->freeze_steps);
     if (watched->crystal == NULL || watched->frozen == NULL || watched->freeze_steps == NULL)
@@ -53,7 +51,7 @@ course *course_start(const variant *way, const snow_scene *scene)
     course *watched = calloc(1, sizeof *watched);
     if (watched == NULL)
         return NULL;
-    if (make_grid(watched, way, scene) && (!way->plain || make_crystal(watched, scene)))
+    if (make_grid(watched, way, scene) && (!way->plain || make_crystal(watched, way, scene)))
         return watched;
     course_end(watched);
     return NULL;
@@ -95,6 +93,17 @@ const char *course_advance(course *watched, int64_t step)
         note_frozen(watched);
     }
     watched->steps = step;
+    return trouble_of(status);
+}
+
+const char *course_run(course *watched, const snow_stop *stop, int64_t step, snow_summary *summary)
+{
+    snow_stop until = *stop;
+    if (until.max_steps < 0 || until.max_steps > step)
+        until.max_steps = step;
+    snow_summary_init(summary, sizeof *summary);
+    snow_status status = snow_run(watched->grid, &until, summary);
+    watched->steps = summary->steps;
     return trouble_of(status);
 }
 

@@ -23,6 +23,9 @@ uint64_t course_cells(const course *watched);
 /* Steps on to this step, whatever the crystal does. NULL, or what went wrong. */
 const char *course_advance(course *watched, int64_t step);
 
+/* Runs an engine of the library until the stop says so, but not past this step. NULL, or what went wrong. */
+const char *course_run(course *watched, const snow_stop *stop, int64_t step, snow_summary *summary);
+
 /* NULL, or what went wrong. Inside is 1 in the interior, else 0; freeze steps are -1 where a cell is not ice. */
 const char *course_copy_inside(const course *watched, double *inside);
 const char *course_copy_vapour(const course *watched, double *vapour);

@@ -9,14 +9,24 @@ typedef struct row_span {
     size_t end;
 } row_span;
 
+/* What depends on the type of the numbers: plain_passes.h. */
+typedef struct arithmetic {
+    size_t size; /* bytes of a number */
+    void (*load)(plain_crystal *crystal, const double *values);
+    double (*read)(const plain_crystal *crystal, size_t index);
+    bool (*rim_reached)(const plain_crystal *crystal);
+    void (*step)(plain_crystal *crystal);
+} arithmetic;
+
 /*
  * The arrays cover the bounds of the domain and one more cell on each side. Cells outside the interior keep the
  * background in value and vapour for ever.
  */
 struct plain_crystal {
-    double *value;
-    double *vapour;
-    double *kept; /* What a receptive cell has, with this step's addition; 0 elsewhere. */
+    const arithmetic *numbers;
+    void *value;
+    void *vapour;
+    void *kept; /* What a receptive cell has, with this step's addition; 0 elsewhere. */
     row_span *rows;
     size_t *rim; /* The cells that end a run when they are ice. */
     size_t rim_count;
@@ -41,6 +51,16 @@ static size_t padded_count(const plain_crystal *crystal)
 {
     return ((size_t)crystal->bounds.height + 2) * crystal->stride;
 }
+
+#define REAL double
+#define NAMED(x) x##_double
+#include "plain_passes.h"
+#undef REAL
+#undef NAMED
+
+#define REAL float
+#define NAMED(x) x##_single
+#include "plain_passes.h"
 
 /* The rim rules, cell by cell; a rectangle is counted in its drawn rows and columns. */
 static bool near_rim(const snow_reiter_params *params, int64_t q, int64_t r)
@@ -83,14 +103,22 @@ static bool find_rows(plain_crystal *crystal, const snow_reiter_params *params, 
     return true;
 }
 
-static bool read_start(plain_crystal *crystal, const snow_reiter_params *params, const snow_grid *start)
+static bool read_values(plain_crystal *crystal, const snow_grid *start)
 {
-    size_t count = padded_count(crystal);
     snow_rect padded = {crystal->bounds.q - 1, crystal->bounds.r - 1, crystal->bounds.width + 2,
                         crystal->bounds.height + 2};
-    if (snow_field_copy(start, SNOW_FIELD_VALUE, &padded, crystal->value, count, NULL) != SNOW_OK)
-        return false;
-    memcpy(crystal->vapour, crystal->value, count * sizeof *crystal->vapour);
+    size_t count = padded_count(crystal);
+    double *values = malloc(count * sizeof *values);
+    bool done = values != NULL &&
+                snow_field_copy(start, SNOW_FIELD_VALUE, &padded, values, count, NULL) == SNOW_OK;
+    if (done)
+        crystal->numbers->load(crystal, values);
+    free(values);
+    return done;
+}
+
+static bool read_domain(plain_crystal *crystal, const snow_reiter_params *params, const snow_grid *start)
+{
     size_t cells = (size_t)crystal->bounds.width * (size_t)crystal->bounds.height;
     double *inside = malloc(cells * sizeof *inside);
     bool done = inside != NULL &&
@@ -100,22 +128,23 @@ static bool read_start(plain_crystal *crystal, const snow_reiter_params *params,
     return done;
 }
 
-plain_crystal *plain_create(const snow_reiter_params *params, const snow_grid *start)
+plain_crystal *plain_create(const snow_reiter_params *params, bool single, const snow_grid *start)
 {
     plain_crystal *crystal = calloc(1, sizeof *crystal);
     if (crystal == NULL)
         return NULL;
     if (snow_domain_bounds(start, &crystal->bounds) == SNOW_OK) {
+        crystal->numbers = single ? &arithmetic_single : &arithmetic_double;
         crystal->addition = params->addition;
         crystal->diffusion = params->diffusion;
         crystal->stride = (size_t)crystal->bounds.width + 2;
-        crystal->value = malloc(padded_count(crystal) * sizeof(double));
-        crystal->vapour = malloc(padded_count(crystal) * sizeof(double));
-        crystal->kept = calloc(padded_count(crystal), sizeof(double));
+        crystal->value = malloc(padded_count(crystal) * crystal->numbers->size);
+        crystal->vapour = malloc(padded_count(crystal) * crystal->numbers->size);
+        crystal->kept = calloc(padded_count(crystal), crystal->numbers->size);
         crystal->rows = calloc((size_t)crystal->bounds.height, sizeof *crystal->rows);
     }
     if (crystal->value == NULL || crystal->vapour == NULL || crystal->kept == NULL || crystal->rows == NULL ||
-        !read_start(crystal, params, start)) {
+        !read_values(crystal, start) || !read_domain(crystal, params, start)) {
         plain_destroy(crystal);
         return NULL;
     }
@@ -134,60 +163,11 @@ void plain_destroy(plain_crystal *crystal)
     free(crystal);
 }
 
-static double greater(double a, double b)
-{
-    return a > b ? a : b;
-}
-
-/* First pass: v, and what receptive cells keep. One comparison a cell, for seven in a row are not vectorised. */
-static void split_row(size_t first, size_t end, size_t stride, double addition, const double *restrict value,
-                      double *restrict vapour, double *restrict kept)
-{
-    for (size_t i = first; i < end; i++) {
-        double row = greater(greater(value[i - 1], value[i]), value[i + 1]);
-        double above = greater(value[i - stride], value[i - stride + 1]);
-        double below = greater(value[i + stride - 1], value[i + stride]);
-        double most = greater(row, greater(above, below));
-        double gained = value[i] + addition;
-        vapour[i] = most < 1.0 ? value[i] : 0.0;
-        kept[i] = most < 1.0 ? 0.0 : gained;
-    }
-}
-
-/* Second pass: u' = kept + v + (alpha / 12) (sum of the six neighbours' v - 6 v). */
-static void update_row(size_t first, size_t end, size_t stride, double rate, double *restrict value,
-                       const double *restrict vapour, const double *restrict kept)
-{
-    for (size_t i = first; i < end; i++) {
-        double sum = vapour[i + 1] + vapour[i - 1] + vapour[i + stride] + vapour[i - stride] +
-                     vapour[i - stride + 1] + vapour[i + stride - 1];
-        value[i] = kept[i] + vapour[i] + rate * (sum - 6.0 * vapour[i]);
-    }
-}
-
-static bool rim_reached(const plain_crystal *crystal)
-{
-    for (size_t i = 0; i < crystal->rim_count; i++) {
-        if (crystal->value[crystal->rim[i]] >= 1.0)
-            return true;
-    }
-    return false;
-}
-
 void plain_run(plain_crystal *crystal, int64_t max_steps, bool rim)
 {
-    size_t stride = crystal->stride;
-    double rate = crystal->diffusion / 12.0;
-    while (crystal->steps < max_steps && !(rim && rim_reached(crystal))) {
-        for (int32_t row = 0; row < crystal->bounds.height; row++) {
-            row_span span = crystal->rows[row];
-            split_row(span.first, span.end, stride, crystal->addition, crystal->value, crystal->vapour,
-                      crystal->kept);
-        }
-        for (int32_t row = 0; row < crystal->bounds.height; row++) {
-            row_span span = crystal->rows[row];
-            update_row(span.first, span.end, stride, rate, crystal->value, crystal->vapour, crystal->kept);
-        }
+    const arithmetic *numbers = crystal->numbers;
+    while (crystal->steps < max_steps && !(rim && numbers->rim_reached(crystal))) {
+        numbers->step(crystal);
         crystal->steps++;
     }
 }
@@ -199,7 +179,12 @@ int64_t plain_steps(const plain_crystal *crystal)
 
 uint64_t plain_memory(const plain_crystal *crystal)
 {
-    return 3 * sizeof(double) * (uint64_t)padded_count(crystal);
+    return 3 * (uint64_t)crystal->numbers->size * (uint64_t)padded_count(crystal);
+}
+
+static bool is_ice(const plain_crystal *crystal, size_t index)
+{
+    return crystal->numbers->read(crystal, index) >= 1.0;
 }
 
 uint64_t plain_frozen(const plain_crystal *crystal)
@@ -207,7 +192,7 @@ uint64_t plain_frozen(const plain_crystal *crystal)
     uint64_t frozen = 0;
     for (int32_t row = 0; row < crystal->bounds.height; row++) {
         for (size_t i = crystal->rows[row].first; i < crystal->rows[row].end; i++)
-            frozen += crystal->value[i] >= 1.0;
+            frozen += is_ice(crystal, i);
     }
     return frozen;
 }
@@ -216,24 +201,23 @@ void plain_copy_frozen(const plain_crystal *crystal, double *frozen)
 {
     for (int32_t row = 0; row < crystal->bounds.height; row++) {
         for (int32_t column = 0; column < crystal->bounds.width; column++)
-            *frozen++ = crystal->value[padded_index(crystal, column, row)] >= 1.0 ? 1.0 : 0.0;
+            *frozen++ = is_ice(crystal, padded_index(crystal, column, row)) ? 1.0 : 0.0;
     }
 }
 
-static bool is_receptive(const double *cell, size_t stride)
+static bool is_receptive(const plain_crystal *crystal, size_t i)
 {
-    const double *above = cell - stride;
-    const double *below = cell + stride;
-    return cell[0] >= 1.0 || cell[1] >= 1.0 || cell[-1] >= 1.0 || above[0] >= 1.0 || above[1] >= 1.0 ||
-           below[0] >= 1.0 || below[-1] >= 1.0;
+    size_t stride = crystal->stride;
+    return is_ice(crystal, i) || is_ice(crystal, i + 1) || is_ice(crystal, i - 1) || is_ice(crystal, i - stride) ||
+           is_ice(crystal, i - stride + 1) || is_ice(crystal, i + stride) || is_ice(crystal, i + stride - 1);
 }
 
 void plain_copy_vapour(const plain_crystal *crystal, double *vapour)
 {
     for (int32_t row = 0; row < crystal->bounds.height; row++) {
         for (int32_t column = 0; column < crystal->bounds.width; column++) {
-            const double *cell = &crystal->value[padded_index(crystal, column, row)];
-            *vapour++ = is_receptive(cell, crystal->stride) ? 0.0 : *cell;
+            size_t i = padded_index(crystal, column, row);
+            *vapour++ = is_receptive(crystal, i) ? 0.0 : crystal->numbers->read(crystal, i);
         }
     }
 }

@@ -3,19 +3,18 @@
 #define BENCH_PLAN_H
 
 #include "scenes.h"
-#include "variant.h"
+#include "settings.h"
 
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 
-enum { MOST_SCENES = 64, MOST_VARIANTS = 64, MOST_ROUNDS = 1000, MOST_THREADS = 1024 };
+enum { MOST_SCENES = 64, MOST_ROUNDS = 1000 };
 
 typedef struct plan {
     snow_scene scenes[MOST_SCENES];
     size_t scene_count;
-    variant ways[MOST_VARIANTS];
-    size_t way_count;
+    variant_list variants;
     size_t rounds;
     double least_seconds; /* of one measurement */
     int64_t steps;        /* 0: those of the scene */

@@ -25,15 +25,26 @@ bool variant_find(const char *name, variant *found)
     return false;
 }
 
+bool variant_has_precisions(const variant *way)
+{
+    return way->plain || way->engine != SNOW_REITER_ENGINE_QUAD;
+}
+
 bool variant_has_settings(const variant *way)
 {
     return !way->plain &&
            (way->engine == SNOW_REITER_ENGINE_AUTO || way->engine == SNOW_REITER_ENGINE_ROWS);
 }
 
-bool variant_is_exact(const variant *way)
+static bool has_common_bits(const variant *way)
 {
     return !way->plain && way->engine != SNOW_REITER_ENGINE_QUAD;
+}
+
+bool variant_same_bits(const variant *a, const variant *b)
+{
+    return has_common_bits(a) && has_common_bits(b) && a->precision == b->precision &&
+           a->tolerance == b->tolerance && (a->tolerance == 0.0 || a->symmetry == b->symmetry);
 }
 
 bool variant_can_grow(const variant *way, const snow_scene *scene)
@@ -41,9 +52,24 @@ bool variant_can_grow(const variant *way, const snow_scene *scene)
     return !way->plain || plain_supports(&scene->params);
 }
 
-static const char *run_plain(const snow_scene *scene, const snow_grid *grid, outcome *result)
+snow_status variant_make_grid(const variant *way, const snow_scene *scene, bool freeze_steps, snow_grid **grid)
 {
-    plain_crystal *crystal = plain_create(&scene->params, grid);
+    snow_reiter_params params = scene->params;
+    params.engine = way->engine;
+    params.record_freeze_steps = freeze_steps;
+    params.symmetry = way->symmetry;
+    params.precision = way->plain ? SNOW_REITER_PRECISION_DOUBLE : way->precision;
+    params.tolerance = way->tolerance;
+    snow_options options;
+    snow_options_init(&options, sizeof options);
+    options.isa = way->isa;
+    options.threads = way->threads;
+    return snow_reiter_create(&params, &options, grid);
+}
+
+static const char *run_plain(const variant *way, const snow_scene *scene, const snow_grid *grid, outcome *result)
+{
+    plain_crystal *crystal = plain_create(&scene->params, way->precision == SNOW_REITER_PRECISION_SINGLE, grid);
     if (crystal == NULL)
         return "no memory";
     int64_t limit = scene->stop.max_steps >= 0 ? scene->stop.max_steps : INT64_MAX;
@@ -75,21 +101,15 @@ static snow_status run_library(const snow_scene *scene, snow_grid *grid, outcome
 
 const char *variant_run(const variant *way, const snow_scene *scene, outcome *result)
 {
-    snow_reiter_params params = scene->params;
-    params.engine = way->engine;
-    snow_options options;
-    snow_options_init(&options, sizeof options);
-    options.isa = way->isa;
-    options.threads = way->threads;
     snow_grid *grid = NULL;
-    snow_status status = snow_reiter_create(&params, &options, &grid);
+    snow_status status = variant_make_grid(way, scene, false, &grid);
     if (status != SNOW_OK)
         return snow_strerror(status);
     *result = (outcome){.reason = SNOW_STOP_NONE};
     const char *trouble = NULL;
     status = snow_domain_cells(grid, &result->cells);
     if (status == SNOW_OK && way->plain)
-        trouble = run_plain(scene, grid, result);
+        trouble = run_plain(way, scene, grid, result);
     else if (status == SNOW_OK)
         status = run_library(scene, grid, result);
     snow_destroy(grid);

@@ -152,7 +152,7 @@ int main(int argc, char **argv)
     }
     if (!scene_check(&self.it, &command))
         return EXIT_WRONG;
-    self.it.params.record_freeze_steps = self.appearance.palette == SNOW_PALETTE_AGE;
+    self.it.params.record_freeze_steps = palette_shows_age(self.appearance.palette);
     signal(SIGPIPE, SIG_IGN); /* an encoder that ends is told as a failed write */
     progress_start();
     return run(&self);

@@ -150,7 +150,7 @@ int main(int argc, char **argv)
         return list_presets();
     if (!check(&command, &it, &names))
         return EXIT_WRONG;
-    it.params.record_freeze_steps = names.save || appearance.palette == SNOW_PALETTE_AGE;
+    it.params.record_freeze_steps = names.save || palette_shows_age(appearance.palette);
     progress_start();
     exit_code = names.load ? load(names.load, &it.options, &grid) : scene_create(&it, &grid);
     if (exit_code == EXIT_DONE)

@@ -48,9 +48,9 @@ static bool set_panels(table *self)
     if (!sheet_set_panels(it, columns, columns * rows, true))
         return false;
     for (int32_t column = 0; column < columns; column++)
-        snprintf(it->column_labels[column], LONGEST_LABEL, "β = %g", self->betas.numbers[column]);
+        snprintf(it->column_labels[column], LONGEST_LABEL, "β = %.4g", self->betas.numbers[column]);
     for (int32_t row = 0; row < rows; row++) {
-        snprintf(it->row_labels[row], LONGEST_LABEL, "γ = %g", self->gammas.numbers[row]);
+        snprintf(it->row_labels[row], LONGEST_LABEL, "γ = %.4g", self->gammas.numbers[row]);
         for (int32_t column = 0; column < columns; column++)
             set_panel(self, column, row);
     }
@@ -100,8 +100,8 @@ int main(int argc, char **argv)
     sheet_init(&self.picture);
     option_row rows[] = {
         OPTION_GROUP("The table"),
-        OPTION_LIST("betas", &self.betas, "backgrounds, a column each (the paper's 11)"),
-        OPTION_LIST("gammas", &self.gammas, "additions, a row each (the paper's 7)"),
+        OPTION_LIST("betas", &self.betas, "backgrounds, a column each (the paper's 11); 0:0.95:20 stands for 20 numbers"),
+        OPTION_LIST("gammas", &self.gammas, "additions, a row each (the paper's 7); 0.0001:1:20log for 20 with equal ratios"),
         OPTION_INTEGER("radius", "CELLS", &self.radius, INT32_MIN, INT32_MAX, "of the discs (200)"),
         OPTION_LONG("max-steps", "STEPS", &self.max_steps, 0, INT64_MAX, "end there (10000; with --polish 3000)"),
         OPTION_FLAG("polish", &self.polish, "the rows of the report of Połuszejko and Grabiński"),

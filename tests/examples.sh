@@ -100,7 +100,7 @@ test_hello() {
 }
 
 test_help() {
-    for program in snowflake table alpha_sweep random_seeds changing_conditions animation aggregate; do
+    for program in snowflake table alpha_sweep random_seeds changing_conditions packard packard_figures aggregate animation; do
         if built "$program"; then
             run $program --help
             check "$program --help" helped "$program"
@@ -136,6 +136,39 @@ test_line() {
     env LC_ALL=de_DE.UTF-8 "$programs/snowflake" --radius 20 --beta .4 >stdout 2>stderr
     code=$?
     check 'numbers do not depend on the locale' printed "$result_line"
+}
+
+packard_line='^steps=[0-9]+ population=[0-9]+ engine=(reference|tiles|quadtree)$'
+
+test_packard() {
+    run packard --rule 0100000 --steps 1000
+    check 'packard ends with the known line' printed '^steps=1000 population=1818877 engine=tiles$'
+    run packard --rule b1s0123456h --steps 100 --engine quadtree
+    check 'packard --engine quadtree' printed '^steps=100 population=16381 engine=quadtree$'
+    run packard --rule 0101010 --steps 1152921504606846976
+    check 'packard counts beyond 64 bits' printed 'population=3323069989462289678800753136880320521 engine=quadtree$'
+    run packard --rule 0110000 --zone corners:7-8 --zone tips:4 --zone clefts:9-:2.5 --zone clefts:1-3:12d --steps 20
+    check 'packard --zone' printed "$packard_line"
+    for domain in disc hexagon rectangle rhombus torus; do
+        run packard --domain $domain --radius 20 --width 30 --height 25 --cluster 5 --seed 3 --size 50 --out domain.png
+        [ "$code" -ne 0 ] || code=$(is_png domain.png; echo $?)
+        check "packard --domain $domain" printed "$packard_line"
+    done
+    for palette in ink age phase; do
+        run packard --steps 20 --palette $palette --size 64 --out $palette.png
+        [ "$code" -ne 0 ] || code=$(is_png $palette.png; echo $?)
+        check "packard --palette $palette" printed "$packard_line"
+    done
+    run packard --seeds 20 --side 50 --seed 7 --steps 15 --rle part.rle
+    check 'packard --rle' printed "$packard_line"
+    run packard --load-rle part.rle --steps 15
+    mv stdout continued
+    run packard --seeds 20 --side 50 --seed 7 --steps 30
+    check 'packard --load-rle goes on' cmp -s continued stdout
+    run packard_figures --panel 40 --out figures.png
+    check 'packard_figures' printed '^panels=10 done=10 seconds=[0-9.]+$'
+    run packard_dimension --steps 64
+    check 'packard_dimension' [ "$(lines stdout)" -eq 7 ]
 }
 
 test_presets() {
@@ -242,9 +275,27 @@ test_wrong() {
     bad snowflake --beta
     bad snowflake --transparent=yes
     bad snowflake argument
+    bad packard --rule 01010
+    bad packard --rule B3/S23
+    bad packard --rule 1000000
+    bad packard --zone clefts
+    bad packard --zone clefts:x
+    bad packard --zone corners:5-4
+    bad packard --zone tips:1-2:w
+    bad packard --engine quadtree --domain disc
+    bad packard --steps -1
+    bad packard --seeds 20 --side 3
+    bad packard --load-rle nowhere.rle
+    bad packard_dimension --steps 3
     bad table --betas 0.1,,0.2
     bad table --betas 0.1,1
     bad table --gammas ,
+    bad table --betas 0:0.9
+    bad table --betas 0:0.9:1
+    bad table --betas 0:0.9:2.5
+    bad table --betas 0:0.9:257
+    bad table --betas 0:0.9:3logs
+    bad table --gammas 0:1:3log
     bad table --polish --radius 50
     bad table --panel 0
     bad table --threads -1
@@ -349,6 +400,9 @@ test_sheets() {
     check 'table: the same with one thread' cmp -s table.png threads.png
     run table --polish --betas .6 --gammas .05 --panel 60 --out polish.png
     check 'table --polish' drew polish.png
+    run table --betas 0:.9:4,.95 --gammas .0001:1:3log --radius 12 --panel 16 --out ranges.png --csv ranges.csv
+    check 'table: ranges have as many numbers as they say' [ "$(lines ranges.csv)" -eq 16 ]
+    check 'table: ranges with equal ratios' grep -q '^0.95,0.01,' ranges.csv
     run table --betas .4 --gammas 0.01 --radius 20 --palette age --panel 16 --out age.png
     check 'table --palette age' drew age.png
     run alpha_sweep --radius 40 --tip 30 --panel 60 --out alpha.png
@@ -440,6 +494,7 @@ test_hello
 if built snowflake; then
     test_help
     test_line
+    test_packard
     test_presets
     test_pictures
     test_continue

@@ -42,11 +42,12 @@ typedef struct plain {
     snow_tile_mask mask;
     const void *context;
     int32_t steps;
+    int64_t first, end; /* rows that may change, counted from the least */
 } plain;
 
 static plain plain_start(int64_t least, int64_t width, int64_t height, bool torus)
 {
-    plain model = {.least = least, .width = width, .height = height, .torus = torus};
+    plain model = {.least = least, .width = width, .height = height, .torus = torus, .first = height};
     model.frozen = calloc((size_t)(width * height), 1);
     model.date = calloc((size_t)(width * height), sizeof *model.date);
     assert_non_null(model.frozen);
@@ -86,31 +87,64 @@ static void plain_set(plain *model, int64_t q, int64_t r)
     if (!model->frozen[index])
         model->date[index] = model->steps;
     model->frozen[index] = 1;
+    int64_t row = index / model->width;
+    model->first = row < model->first ? row : model->first;
+    model->end = row >= model->end ? row + 1 : model->end;
 }
 
-static bool plain_freezes(const plain *model, uint8_t rule, int64_t q, int64_t r)
+static int plain_neighbours(const plain *model, int64_t q, int64_t r)
+{
+    int64_t x = q - model->least;
+    int64_t y = r - model->least;
+    if (x > 0 && y > 0 && x < model->width - 1 && y < model->height - 1) { /* the same, without looking for the rim */
+        const uint8_t *here = model->frozen + y * model->width + x;
+        const uint8_t *above = here - model->width;
+        const uint8_t *below = here + model->width;
+        return here[-1] + here[1] + above[0] + above[1] + below[-1] + below[0];
+    }
+    return plain_has(model, q + 1, r) + plain_has(model, q - 1, r) + plain_has(model, q, r + 1) +
+           plain_has(model, q, r - 1) + plain_has(model, q + 1, r - 1) + plain_has(model, q - 1, r + 1);
+}
+
+/* The mask is asked about a block that begins with the cell. */
+static bool plain_obeys(const plain *model, bool freezes, int count, int64_t q, int64_t r)
 {
     uint64_t allowed[64];
     uint64_t priority[64] = {0};
     memset(allowed, 0xFF, sizeof allowed);
-    if (model->mask != NULL) { /* asked about a block that begins with the cell */
-        model->mask(model->context, q, r, allowed, priority);
-        if (!(allowed[0] & 1))
-            return false;
+    model->mask(model->context, q, r, allowed, priority);
+    return (freezes || ((priority[0] & 1) && count > 0)) && (allowed[0] & 1);
+}
+
+static bool plain_freezes(const plain *model, uint8_t rule, int64_t q, int64_t r)
+{
+    int count = plain_neighbours(model, q, r);
+    bool freezes = (rule >> count & 1) != 0;
+    if (model->mask == NULL || (count == 0 && !freezes))
+        return freezes;
+    return plain_obeys(model, freezes, count, q, r);
+}
+
+/* Rows without neighbours of frozen cells are left out where that is plainly right. */
+static void plain_widen(plain *model, uint8_t rule)
+{
+    if (model->torus || (rule & 1)) {
+        model->first = 0;
+        model->end = model->height;
     }
-    int count = plain_has(model, q + 1, r) + plain_has(model, q - 1, r) + plain_has(model, q, r + 1) +
-                plain_has(model, q, r - 1) + plain_has(model, q + 1, r - 1) + plain_has(model, q - 1, r + 1);
-    return (rule >> count & 1) || ((priority[0] & 1) && count > 0);
+    model->first -= model->first > 0;
+    model->end += model->end < model->height;
 }
 
 static void plain_step(plain *model, uint8_t rule)
 {
+    plain_widen(model, rule);
     size_t cells = (size_t)(model->width * model->height);
     uint8_t *next = malloc(cells);
     assert_non_null(next);
     memcpy(next, model->frozen, cells);
     model->steps++;
-    for (int64_t y = 0; y < model->height; y++) {
+    for (int64_t y = model->first; y < model->end; y++) {
         for (int64_t x = 0; x < model->width; x++) {
             int64_t index = y * model->width + x;
             if (model->frozen[index] || !plain_freezes(model, rule, model->least + x, model->least + y))
@@ -126,9 +160,18 @@ static void plain_step(plain *model, uint8_t rule)
     model->frozen = next;
 }
 
-static void assert_same(const plain *model, snow_tiles *tiles, bool dated)
+static void widen(int64_t *least, int64_t *greatest, int64_t value)
 {
-    snow_tiles_census want = {0, INT64_MAX, INT64_MIN, INT64_MAX, INT64_MIN, 0};
+    *least = value < *least ? value : *least;
+    *greatest = value > *greatest ? value : *greatest;
+}
+
+static void assert_same(const plain *model, snow_tiles *tiles, const snow_tiles_plan *plan)
+{
+    snow_tiles_census want = {
+        .least_q = INT64_MAX, .least_r = INT64_MAX, .least_s = INT64_MAX,
+        .greatest_q = INT64_MIN, .greatest_r = INT64_MIN, .greatest_s = INT64_MIN,
+    };
     for (int64_t y = 0; y < model->height; y++) {
         uint64_t row[64];
         assert_true(model->width <= 64 * 64);
@@ -139,16 +182,15 @@ static void assert_same(const plain *model, snow_tiles *tiles, bool dated)
             bool frozen = model->frozen[y * model->width + x] != 0;
             if ((row[x / 64] >> x % 64 & 1) != frozen)
                 fail_msg("cell %lld, %lld differs after %d steps", (long long)q, (long long)r, (int)model->steps);
-            if (dated)
+            if (plan->dated)
                 assert_int_equal(model->date[y * model->width + x], snow_tiles_date(tiles, q, r));
             if (!frozen)
                 continue;
             want.frozen++;
-            want.least_q = q < want.least_q ? q : want.least_q;
-            want.greatest_q = q > want.greatest_q ? q : want.greatest_q;
-            want.least_r = r < want.least_r ? r : want.least_r;
-            want.greatest_r = r > want.greatest_r ? r : want.greatest_r;
-            uint64_t square = (uint64_t)snow_hexagon_square(q, r);
+            widen(&want.least_q, &want.greatest_q, q);
+            widen(&want.least_r, &want.greatest_r, r);
+            widen(&want.least_s, &want.greatest_s, q + r);
+            uint64_t square = (uint64_t)snow_hexagon_square(q - plan->centre_q, r - plan->centre_r);
             want.tip_square = square > want.tip_square ? square : want.tip_square;
         }
     }
@@ -161,6 +203,8 @@ static void assert_same(const plain *model, snow_tiles *tiles, bool dated)
     assert_int_equal(want.greatest_q, got.greatest_q);
     assert_int_equal(want.least_r, got.least_r);
     assert_int_equal(want.greatest_r, got.greatest_r);
+    assert_int_equal(want.least_s, got.least_s);
+    assert_int_equal(want.greatest_s, got.greatest_s);
     assert_int_equal(want.tip_square, got.tip_square);
 }
 
@@ -215,7 +259,7 @@ static void pair_advance(pair *both, int steps)
     for (size_t i = 0; i < both->planes; i++) {
         assert_int_equal(SNOW_OK, snow_tiles_advance(both->tiles[i], steps));
         assert_int_equal(both->model.steps, snow_tiles_steps(both->tiles[i]));
-        assert_same(&both->model, both->tiles[i], both->plan.dated);
+        assert_same(&both->model, both->tiles[i], &both->plan);
     }
 }
 
@@ -378,7 +422,8 @@ static void a_torus_closes_at_any_size(void **state)
     for (size_t i = 0; i < sizeof sizes / sizeof sizes[0]; i++) {
         for (unsigned rule = 2; rule < 128; rule += 10) {
             snow_tiles_plan plan = {
-                .freezes = (uint8_t)rule, .width = sizes[i][0], .height = sizes[i][1], .dated = i % 2 == 0};
+                .freezes = (uint8_t)rule, .width = sizes[i][0], .height = sizes[i][1], .dated = i % 2 == 0,
+                .centre_q = sizes[i][0] / 2};
             pair both;
             pair_start(&both, &plan, plain_start(0, plan.width, plan.height, true));
             pair_set(&both, (int64_t)(draw(&random) % 1000) - 500, (int64_t)(draw(&random) % 1000) - 500);
@@ -558,34 +603,62 @@ static void masks_leave_nothing_behind(void **state)
 
 /* ---- rows, threads, memory ---- */
 
-static void rows_carry_a_plane_over(void **state)
+enum { REACH = 131, COUNT = 2 * REACH + 1 };
+
+static void copy_rows(const snow_tiles *from, snow_tiles *to)
 {
-    (void)state;
-    snow_heap heap = heap_with_limit(0);
-    snow_tiles *from, *to;
-    assert_int_equal(SNOW_OK, snow_tiles_create(&from, &heap, &(snow_tiles_plan){.freezes = 0x2A, .folded = true}));
-    assert_int_equal(SNOW_OK, snow_tiles_create(&to, &heap, &(snow_tiles_plan){.freezes = 0x2A}));
-    assert_int_equal(SNOW_OK, snow_tiles_set(from, 0, 0));
-    assert_int_equal(SNOW_OK, snow_tiles_advance(from, 90));
-    enum { REACH = 131, COUNT = 2 * REACH + 1 };
-    uint64_t row[COUNT / 64 + 1], other[COUNT / 64 + 1];
+    uint64_t row[COUNT / 64 + 1];
     for (int r = -REACH; r <= REACH; r++) {
         snow_tiles_row(from, -REACH, r, COUNT, row);
         assert_int_equal(SNOW_OK, snow_tiles_put_row(to, -REACH, r, COUNT, row));
     }
-    snow_tiles_set_steps(to, 90);
-    assert_int_equal(SNOW_OK, snow_tiles_advance(from, 40));
-    assert_int_equal(SNOW_OK, snow_tiles_advance(to, 40));
-    assert_int_equal(130, snow_tiles_steps(to));
-    for (int r = -REACH; r <= REACH; r++) {
-        snow_tiles_row(from, -REACH, r, COUNT, row);
-        snow_tiles_row(to, -REACH, r, COUNT, other);
-        assert_memory_equal(row, other, sizeof row);
-        for (int q = -REACH; q <= REACH; q++)
-            assert_int_equal(row[(q + REACH) / 64] >> (q + REACH) % 64 & 1, snow_tiles_get(to, q, r));
+}
+
+static void assert_equal_planes(const snow_tiles *one, const snow_tiles *other, int64_t least, int64_t greatest)
+{
+    uint64_t a[64], b[64];
+    size_t count = (size_t)(greatest - least + 1);
+    assert_true(count <= 64 * 64);
+    for (int64_t r = least; r <= greatest; r++) {
+        snow_tiles_row(one, least, r, count, a);
+        snow_tiles_row(other, least, r, count, b);
+        assert_memory_equal(a, b, (count + 63) / 64 * 8);
     }
-    snow_tiles_destroy(from);
-    snow_tiles_destroy(to);
+}
+
+/* From a folded plane to one that is not, back, and to a torus. */
+static void rows_carry_a_plane_over(void **state)
+{
+    (void)state;
+    snow_heap heap = heap_with_limit(0);
+    snow_tiles_plan plans[] = {
+        {.freezes = 0x2A, .folded = true},
+        {.freezes = 0x2A},
+        {.freezes = 0x2A, .folded = true, .dated = true},
+        {.freezes = 0x2A, .width = COUNT, .height = COUNT + 1},
+    };
+    enum { PLANES = sizeof plans / sizeof plans[0] };
+    snow_tiles *tiles[PLANES];
+    for (size_t i = 0; i < PLANES; i++)
+        assert_int_equal(SNOW_OK, snow_tiles_create(&tiles[i], &heap, &plans[i]));
+    assert_int_equal(SNOW_OK, snow_tiles_set(tiles[0], 0, 0));
+    assert_int_equal(SNOW_OK, snow_tiles_advance(tiles[0], 90));
+    for (size_t i = 1; i < PLANES; i++) {
+        snow_tiles_set_steps(tiles[i], 90);
+        copy_rows(tiles[i - 1], tiles[i]);
+    }
+    for (size_t i = 0; i < PLANES; i++)
+        assert_int_equal(SNOW_OK, snow_tiles_advance(tiles[i], 40));
+    for (size_t i = 1; i < PLANES; i++) {
+        assert_int_equal(130, snow_tiles_steps(tiles[i]));
+        assert_equal_planes(tiles[0], tiles[i], -REACH, REACH);
+    }
+    for (int q = -REACH; q <= REACH; q++)
+        assert_int_equal(snow_tiles_get(tiles[0], q, 17), snow_tiles_get(tiles[1], q, 17));
+    assert_int_equal(90, snow_tiles_date(tiles[2], 0, -1));
+    assert_int_equal(130, snow_tiles_date(tiles[2], 0, -130));
+    for (size_t i = 0; i < PLANES; i++)
+        snow_tiles_destroy(tiles[i]);
     assert_int_equal(0, heap.used);
 }
 
@@ -615,18 +688,6 @@ static void scatter(snow_tiles *tiles, int seeds)
         int64_t q = (int64_t)(draw(&random) % 3000);
         int64_t r = (int64_t)(draw(&random) % 3000);
         assert_int_equal(SNOW_OK, snow_tiles_set(tiles, q, r));
-    }
-}
-
-static void assert_equal_planes(snow_tiles *one, snow_tiles *other, int64_t least, int64_t greatest)
-{
-    uint64_t a[64], b[64];
-    size_t count = (size_t)(greatest - least + 1);
-    assert_true(count <= 64 * 64);
-    for (int64_t r = least; r <= greatest; r++) {
-        snow_tiles_row(one, least, r, count, a);
-        snow_tiles_row(other, least, r, count, b);
-        assert_memory_equal(a, b, (count + 63) / 64 * 8);
     }
 }
 

@@ -20,9 +20,11 @@ static snow_options random_options(uint64_t *random, snow_isa isa)
 }
 
 /* Steps both in the same strides and compares every bit after each. */
-static void assert_equal_growth(const snow_reiter_params *scene, const snow_options *options, int64_t rounds)
+static void assert_equal_growth_in(snow_reiter_precision precision, const snow_reiter_params *scene,
+                                   const snow_options *options, int64_t rounds)
 {
     snow_reiter_params params = *scene;
+    params.precision = precision;
     params.engine = SNOW_REITER_ENGINE_REFERENCE;
     snow_grid *reference = make_grid(&params, NULL);
     params.engine = SNOW_REITER_ENGINE_ROWS;
@@ -36,6 +38,12 @@ static void assert_equal_growth(const snow_reiter_params *scene, const snow_opti
     assert_same_grids(reference, rows);
     snow_destroy(reference);
     snow_destroy(rows);
+}
+
+static void assert_equal_growth(const snow_reiter_params *scene, const snow_options *options, int64_t rounds)
+{
+    assert_equal_growth_in(SNOW_REITER_PRECISION_DOUBLE, scene, options, rounds);
+    assert_equal_growth_in(SNOW_REITER_PRECISION_SINGLE, scene, options, rounds);
 }
 
 static void assert_equal_growth_everywhere(const snow_reiter_params *scene)
@@ -192,6 +200,81 @@ static void random_scenes(void **state)
     }
 }
 
+/* Takes several steps in one pass where it can, and, with two threads, single steps. */
+static void assert_passes_equal_steps(const snow_reiter_params *scene)
+{
+    snow_options options = default_options();
+    snow_grid *passes = make_grid(scene, &options);
+    options.threads = 2;
+    snow_grid *steps = make_grid(scene, &options);
+    static const int64_t some_steps[] = {6, 17, 40};
+    for (size_t i = 0; i < COUNT_OF(some_steps); i++) {
+        assert_ok(snow_step(passes, some_steps[i]));
+        assert_ok(snow_step(steps, some_steps[i]));
+        assert_true(digest_of(steps) == digest_of(passes));
+    }
+    assert_int_equal(frozen_of(steps), frozen_of(passes));
+    snow_destroy(passes);
+    snow_destroy(steps);
+}
+
+/* More than 4 MB of vapour in motion, wider than a strip, ice on the strips' borders and mirrors through them. */
+static void fields_larger_than_a_cache(void **state)
+{
+    (void)state;
+    enum { SEEDS = 41, APART = 97 };
+    snow_cell seeds[SEEDS];
+    for (int32_t i = 0; i < SEEDS; i++)
+        seeds[i] = (snow_cell){(i - SEEDS / 2) * APART, 0};
+    snow_reiter_params noisy = rectangle_scene(0.5, 0.05, 1, 4201, 81);
+    noisy.seeds = seeds;
+    noisy.seed_count = SEEDS;
+    noisy.noise = 0.3;
+    assert_passes_equal_steps(&noisy);
+    noisy.width = 8401;
+    noisy.precision = SNOW_REITER_PRECISION_SINGLE;
+    assert_passes_equal_steps(&noisy);
+    snow_reiter_params folded = rectangle_scene(0.5, 0.05, 1, 8401, 161);
+    folded.seeds = seeds;
+    folded.seed_count = SEEDS;
+    folded.noise = 0.3;
+    folded.noise_symmetric = 1;
+    assert_passes_equal_steps(&folded);
+    snow_reiter_params disc = disc_scene(0.6, 0.2, 1.5, 1050);
+    disc.noise = 0.2;
+    disc.noise_symmetric = 1;
+    disc.symmetry = SNOW_REITER_SYMMETRY_AUTO;
+    assert_passes_equal_steps(&disc);
+}
+
+/* A pass must not step past the end of a run. */
+static void a_pass_stops_where_single_steps_stop(void **state)
+{
+    (void)state;
+    snow_reiter_params params = rectangle_scene(0.5, 0.3, 1, 530, 530);
+    params.noise = 0.3;
+    const double radii[] = {20, 21.5, 33};
+    for (size_t i = 0; i < COUNT_OF(radii); i++) {
+        for (uint64_t frozen = 0; frozen <= 900; frozen += 900) {
+            snow_stop stop = default_stop();
+            stop.tip_radius = radii[i];
+            stop.frozen = frozen;
+            snow_options options = default_options();
+            snow_grid *passes = make_grid(&params, &options);
+            options.threads = 2; /* where no pass is taken */
+            snow_grid *steps = make_grid(&params, &options);
+            snow_summary expected = run_grid(steps, &stop);
+            snow_summary summary = run_grid(passes, &stop);
+            assert_int_equal(expected.reason, summary.reason);
+            assert_int_equal(expected.steps, summary.steps);
+            assert_int_equal(expected.frozen, summary.frozen);
+            assert_true(digest_of(steps) == digest_of(passes));
+            snow_destroy(steps);
+            snow_destroy(passes);
+        }
+    }
+}
+
 /* The lattice in three colours, none next to itself: a cell of the first has six neighbours of the others. */
 static double three_colours(void *context, int32_t q, int32_t r)
 {
@@ -342,6 +425,8 @@ int main(void)
         cmocka_unit_test(every_width_of_row),
         cmocka_unit_test(every_small_disc_and_hexagon),
         cmocka_unit_test(random_scenes),
+        cmocka_unit_test(fields_larger_than_a_cache),
+        cmocka_unit_test(a_pass_stops_where_single_steps_stop),
         cmocka_unit_test(vapour_freezes_by_itself),
         cmocka_unit_test(vapour_falls_below_zero),
         cmocka_unit_test(whole_runs),

@@ -51,6 +51,41 @@ static void defaults_are_the_documented_ones(void **state)
     assert_int_equal(0, params.allow_unstable);
     assert_int_equal(SNOW_REITER_ENGINE_AUTO, params.engine);
     assert_int_equal(SNOW_REITER_SYMMETRY_AUTO, params.symmetry);
+    assert_int_equal(SNOW_REITER_PRECISION_DOUBLE, params.precision);
+    assert_same_double(0.0, params.tolerance);
+}
+
+static void precision_and_tolerance_must_fit_the_engine(void **state)
+{
+    (void)state;
+    static const struct {
+        snow_reiter_engine engine;
+        snow_reiter_precision precision;
+        double tolerance;
+        snow_status status;
+    } cases[] = {
+        {SNOW_REITER_ENGINE_AUTO, SNOW_REITER_PRECISION_SINGLE, 1, SNOW_OK},
+        {SNOW_REITER_ENGINE_ROWS, SNOW_REITER_PRECISION_DOUBLE, 1e-300, SNOW_OK},
+        {SNOW_REITER_ENGINE_REFERENCE, SNOW_REITER_PRECISION_SINGLE, 0, SNOW_OK},
+        {SNOW_REITER_ENGINE_QUAD, SNOW_REITER_PRECISION_DOUBLE, 0, SNOW_OK},
+        {SNOW_REITER_ENGINE_QUAD, SNOW_REITER_PRECISION_SINGLE, 0, SNOW_ERROR_REITER_PRECISION},
+        {SNOW_REITER_ENGINE_QUAD, SNOW_REITER_PRECISION_DOUBLE, 1e-9, SNOW_ERROR_REITER_TOLERANCE},
+        {SNOW_REITER_ENGINE_REFERENCE, SNOW_REITER_PRECISION_DOUBLE, 1e-9, SNOW_ERROR_REITER_TOLERANCE},
+        {SNOW_REITER_ENGINE_ROWS, SNOW_REITER_PRECISION_DOUBLE, -1e-9, SNOW_ERROR_REITER_TOLERANCE},
+        {SNOW_REITER_ENGINE_AUTO, SNOW_REITER_PRECISION_DOUBLE, 1.5, SNOW_ERROR_REITER_TOLERANCE},
+        {SNOW_REITER_ENGINE_AUTO, SNOW_REITER_PRECISION_DOUBLE, NAN, SNOW_ERROR_NOT_FINITE},
+        {SNOW_REITER_ENGINE_AUTO, SNOW_REITER_PRECISION_DOUBLE, INFINITY, SNOW_ERROR_NOT_FINITE},
+    };
+    for (size_t i = 0; i < COUNT_OF(cases); i++) {
+        snow_reiter_params params = disc_scene(0.4, 0.001, 1, 6);
+        params.engine = cases[i].engine;
+        params.precision = cases[i].precision;
+        params.tolerance = cases[i].tolerance;
+        snow_grid *grid = NULL;
+        assert_status(cases[i].status, snow_reiter_create(&params, NULL, &grid));
+        assert_true((grid != NULL) == (cases[i].status == SNOW_OK));
+        snow_destroy(grid);
+    }
 }
 
 static void the_default_scene_has_one_seed(void **state)
@@ -317,6 +352,9 @@ static void integers_out_of_range_are_refused(void **state)
         {disc, AT(symmetry), -1, SNOW_ERROR_ENUM},
         {disc, AT(symmetry), INT32_MIN, SNOW_ERROR_ENUM},
         {disc, AT(symmetry), SNOW_REITER_SYMMETRY_NONE, SNOW_OK},
+        {disc, AT(precision), 2, SNOW_ERROR_ENUM},
+        {disc, AT(precision), -1, SNOW_ERROR_ENUM},
+        {disc, AT(precision), SNOW_REITER_PRECISION_SINGLE, SNOW_OK},
         {rectangle, AT(radius), INT32_MIN, SNOW_OK},
     };
     assert_int_equal(sizeof(int32_t), sizeof(snow_reiter_domain));
@@ -700,6 +738,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(defaults_are_the_documented_ones),
+        cmocka_unit_test(precision_and_tolerance_must_fit_the_engine),
         cmocka_unit_test(the_default_scene_has_one_seed),
         cmocka_unit_test(null_pointers_are_refused),
         cmocka_unit_test(presets_set_what_they_say_and_keep_the_rest),

@@ -11,7 +11,8 @@
 
 #define ROW_DISTANCE 0.86602540378443864676
 
-static const snow_palette palettes[] = {SNOW_PALETTE_PAPER, SNOW_PALETTE_FROST, SNOW_PALETTE_INK, SNOW_PALETTE_AGE};
+static const snow_palette palettes[] = {SNOW_PALETTE_PAPER, SNOW_PALETTE_FROST, SNOW_PALETTE_INK, SNOW_PALETTE_AGE,
+                                         SNOW_PALETTE_PHASE};
 static const snow_pixel layouts[] = {SNOW_PIXEL_GREY, SNOW_PIXEL_RGB, SNOW_PIXEL_RGBA};
 static const size_t layout_bytes[] = {1, 3, 4};
 
@@ -243,7 +244,7 @@ static void bad_numbers_are_refused(void **state)
 static void unknown_palettes_and_layouts_are_refused(void **state)
 {
     (void)state;
-    static const int unknown[] = {0, -1, 5, INT_MAX, INT_MIN};
+    static const int unknown[] = {0, -1, 6, INT_MAX, INT_MIN};
     snow_grid *grid = lone_cell(0.4);
     for (size_t i = 0; i < COUNT_OF(unknown); i++) {
         snow_view view = default_view();
@@ -300,6 +301,8 @@ static void age_needs_recorded_freeze_steps(void **state)
     (void)state;
     snow_grid *grid = lone_cell(0.4);
     snow_view view = small_view(SNOW_PALETTE_AGE, SNOW_PIXEL_RGB);
+    assert_refused(SNOW_ERROR_NOT_RECORDED, grid, &view);
+    view.palette = SNOW_PALETTE_PHASE;
     assert_refused(SNOW_ERROR_NOT_RECORDED, grid, &view);
     snow_destroy(grid);
     grid = grown_crystal(20, 100, NULL);
@@ -427,6 +430,29 @@ static void assert_colour(const snow_grid *grid, snow_palette palette, int32_t q
     assert_memory_equal(expected, colour, 4);
 }
 
+/* Cells of an arm whose freeze steps differ by a multiple of 16 look alike; half a period on they do not. */
+static void look_at_phases(const snow_grid *grid)
+{
+    unsigned char colours[16][4];
+    bool seen[16] = {false};
+    int alike = 0;
+    for (int32_t q = 0; value_at(grid, SNOW_FIELD_FROZEN, q, 0) != 0; q++) {
+        int phase = (int)value_at(grid, SNOW_FIELD_FREEZE_STEP, q, 0) % 16;
+        unsigned char colour[4];
+        look_at(grid, SNOW_PALETTE_PHASE, q, 0, colour);
+        if (seen[phase]) {
+            assert_memory_equal(colours[phase], colour, 3);
+            alike++;
+        }
+        memcpy(colours[phase], colour, sizeof colour);
+        seen[phase] = true;
+    }
+    assert_true(alike > 0);
+    for (int phase = 0; phase < 8; phase++)
+        if (seen[phase] && seen[phase + 8])
+            assert_memory_not_equal(colours[phase], colours[phase + 8], 3);
+}
+
 static void palettes_begin_and_end_as_documented(void **state)
 {
     (void)state;
@@ -452,6 +478,7 @@ static void palettes_begin_and_end_as_documented(void **state)
     assert_true(last[0] > 200 && last[1] > 100);
     look_at(grid, SNOW_PALETTE_FROST, 0, 0, old);
     assert_true(old[2] > old[1] && old[1] > old[0]);
+    look_at_phases(grid);
     look_at(grid, SNOW_PALETTE_INK, 0, 0, old);
     assert_true(old[2] > old[1] && old[1] > old[0] && old[2] < 100);
     snow_destroy(grid);

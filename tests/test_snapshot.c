@@ -38,7 +38,7 @@ static double uneven(void *context, int32_t q, int32_t r)
 }
 
 /* Scenes that between them use all that a snapshot holds. */
-enum { SCENES = 8 };
+enum { SCENES = 9 };
 
 static snow_reiter_params scene(size_t index)
 {
@@ -47,6 +47,7 @@ static snow_reiter_params scene(size_t index)
         disc_scene(0.4, 0.01, 1, 12),      hexagon_scene(0.3, 0.02, 0.5, 9), rectangle_scene(0.5, 0.01, 1, 15, 11),
         disc_scene(0.4, 0.01, 2.6, 10),    disc_scene(0.4, 0.01, 1, 12),     disc_scene(0.9, 0.05, 4, 6),
         rectangle_scene(0.2, 0.5, 1, 1, 1), disc_scene(0, 0, 1, 5),
+        disc_scene(0.4, 0.01, 1, 12),
     };
     scenes[1].record_freeze_steps = 1;
     scenes[1].noise = 0.1;
@@ -59,7 +60,18 @@ static snow_reiter_params scene(size_t index)
     scenes[4].record_freeze_steps = 1;
     scenes[5].allow_unstable = 1;
     without_seeds(&scenes[7]);
+    scenes[8].precision = SNOW_REITER_PRECISION_SINGLE;
     return scenes[index];
+}
+
+/* A scene for an engine; the quad engine has one precision. */
+static snow_reiter_params scene_for(size_t index, snow_reiter_engine engine)
+{
+    snow_reiter_params params = scene(index);
+    params.engine = engine;
+    if (engine == SNOW_REITER_ENGINE_QUAD)
+        params.precision = SNOW_REITER_PRECISION_DOUBLE;
+    return params;
 }
 
 static const snow_reiter_engine engines[] = {SNOW_REITER_ENGINE_ROWS, SNOW_REITER_ENGINE_REFERENCE,
@@ -72,8 +84,7 @@ static void save_load_continue_is_continue(void **state)
     size_t isa_count = available_isas(isas);
     for (size_t i = 0; i < SCENES; i++) {
         for (size_t k = 0; k < COUNT_OF(engines); k++) {
-            snow_reiter_params params = scene(i);
-            params.engine = engines[k];
+            snow_reiter_params params = scene_for(i, engines[k]);
             snow_grid *plain = make_grid(&params, NULL);
             for (int part = 0; part < 5; part++) {
                 snapshot saved = save(plain);
@@ -447,9 +458,8 @@ static void every_damaged_byte_is_noticed(void **state)
     static const unsigned char masks[] = {0x01, 0x80, 0xff};
     for (size_t i = 0; i < SCENES; i++) {
         for (size_t k = 0; k < 3; k++) {
-            snow_reiter_params params = scene(i);
+            snow_reiter_params params = scene_for(i, engines[k]);
             params.radius = params.radius < 4 ? params.radius : 4;
-            params.engine = engines[k];
             snow_grid *grid = make_grid(&params, NULL);
             assert_ok(snow_step(grid, 4));
             snapshot saved = save(grid);

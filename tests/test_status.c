@@ -49,6 +49,24 @@ static const struct {
     {SNOW_ERROR_REITER_RESCALE, 1009},
     {SNOW_ERROR_REITER_VAPOUR, 1010},
     {SNOW_ERROR_REITER_PRESET, 1011},
+    {SNOW_ERROR_REITER_PRECISION, 1012},
+    {SNOW_ERROR_REITER_TOLERANCE, 1013},
+    {SNOW_ERROR_PACKARD_RULE, 2000},
+    {SNOW_ERROR_PACKARD_RULE_LENGTH, 2001},
+    {SNOW_ERROR_PACKARD_RULE_DIGIT, 2002},
+    {SNOW_ERROR_PACKARD_RULE_MELTS, 2003},
+    {SNOW_ERROR_PACKARD_RULE_LATTICE, 2004},
+    {SNOW_ERROR_PACKARD_RULE_DOMAIN, 2005},
+    {SNOW_ERROR_PACKARD_BIRTH, 2006},
+    {SNOW_ERROR_PACKARD_RADIUS, 2007},
+    {SNOW_ERROR_PACKARD_SIDES, 2008},
+    {SNOW_ERROR_PACKARD_SEED, 2009},
+    {SNOW_ERROR_PACKARD_CLUSTER, 2010},
+    {SNOW_ERROR_PACKARD_SCATTER, 2011},
+    {SNOW_ERROR_PACKARD_ENGINE, 2012},
+    {SNOW_ERROR_PACKARD_ZONE, 2013},
+    {SNOW_ERROR_PACKARD_RLE, 2014},
+    {SNOW_ERROR_PACKARD_RLE_STATES, 2015},
 };
 
 static void status_numbers_never_change(void **state)
@@ -78,7 +96,7 @@ static void each_status_has_its_own_text(void **state)
 static void unknown_statuses_have_a_text(void **state)
 {
     (void)state;
-    static const int numbers[] = {-1, 1, 112, 205, 306, 402, 999, 1012, INT_MAX, INT_MIN};
+    static const int numbers[] = {-1, 1, 112, 205, 306, 402, 999, 1014, INT_MAX, INT_MIN};
     for (size_t i = 0; i < COUNT_OF(numbers); i++)
         assert_string_equal(snow_strerror((snow_status)99), snow_strerror((snow_status)numbers[i]));
 }

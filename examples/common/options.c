@@ -46,6 +46,27 @@ static bool take_number(const option_row *row, const char *text)
     return true;
 }
 
+/* What follows the first number of a range: ":last:count" or ":last:countlog". Appends all but the first. */
+static bool read_range(const char *text, char **end, number_list *list)
+{
+    double first = list->numbers[list->count - 1];
+    double last;
+    double count;
+    if (!read_number(text + 1, end, &last) || **end != ':' || !read_number(*end + 1, end, &count))
+        return false;
+    bool logarithmic = strncmp(*end, "log", 3) == 0;
+    *end += logarithmic ? 3 : 0;
+    if (count != floor(count) || count < 2 || count - 1 > (double)(LONGEST_LIST - list->count) ||
+        (logarithmic && !(first > 0 && last > 0)))
+        return false;
+    for (double i = 1; i < count; i++) {
+        double share = i / (count - 1);
+        list->numbers[list->count++] =
+            logarithmic ? first * pow(last / first, share) : first + (last - first) * share;
+    }
+    return true;
+}
+
 static bool take_list(const option_row *row, const char *text)
 {
     number_list list = {0};
@@ -53,6 +74,8 @@ static bool take_list(const option_row *row, const char *text)
     for (;;) {
         char *end;
         if (list.count == LONGEST_LIST || !read_number(rest, &end, &list.numbers[list.count++]))
+            break;
+        if (*end == ':' && !read_range(end, &end, &list))
             break;
         if (*end == '\0') {
             *(number_list *)row->target = list;
@@ -62,7 +85,7 @@ static bool take_list(const option_row *row, const char *text)
             break;
         rest = end + 1;
     }
-    return complain_about(row, text, "a list of at most 64 numbers with commas between them");
+    return complain_about(row, text, "a list of at most 256 numbers, or of ranges first:last:count, with commas between them");
 }
 
 static bool take_integer(const option_row *row, const char *text)

@@ -20,7 +20,7 @@ typedef enum option_kind {
     KIND_UNSIGNED, /* uint64_t */
     KIND_TEXT,     /* const char * */
     KIND_CHOICE,   /* an enumeration */
-    KIND_LIST,     /* number_list */
+    KIND_LIST,     /* number_list: numbers, or ranges first:last:count, evenly spaced, count followed by 'log': in their logarithms */
     KIND_ACTION    /* handed to a function, before all other options */
 } option_kind;
 
@@ -30,7 +30,7 @@ typedef struct option_choice {
     int value;
 } option_choice;
 
-enum { LONGEST_LIST = 64 };
+enum { LONGEST_LIST = 256 };
 
 typedef struct number_list {
     size_t count;

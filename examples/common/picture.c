@@ -5,6 +5,11 @@
 #include <stdlib.h>
 #include <string.h>
 
+bool palette_shows_age(snow_palette palette)
+{
+    return palette == SNOW_PALETTE_AGE || palette == SNOW_PALETTE_PHASE;
+}
+
 static bool allocate(picture *self, int32_t width, int32_t height, int32_t channels)
 {
     *self = (picture){width, height, channels, NULL};

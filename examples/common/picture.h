@@ -29,6 +29,9 @@ typedef struct look {
     int32_t transparent;
 } look;
 
+/* Whether a palette shows when cells froze, so that the grid must record it. */
+bool palette_shows_age(snow_palette palette);
+
 /* False, after a complaint, when there is no memory for it. The pixels are zero. */
 bool picture_create(picture *self, int32_t width, int32_t height, int32_t channels);
 void picture_destroy(picture *self);

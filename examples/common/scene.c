@@ -20,6 +20,7 @@ const option_choice palette_names[] = {{"paper", SNOW_PALETTE_PAPER},
                                        {"frost", SNOW_PALETTE_FROST},
                                        {"ink", SNOW_PALETTE_INK},
                                        {"age", SNOW_PALETTE_AGE},
+                                       {"phase", SNOW_PALETTE_PHASE},
                                        {NULL, 0}};
 
 bool scene_take_preset(void *params, const char *name)

@@ -45,8 +45,16 @@ void sheet_init(sheet *self)
     *self = (sheet){.panel_size = 320, .threads = 1, .palette = SNOW_PALETTE_PAPER};
 }
 
+static snow_status create_reiter(const panel *self, bool dated, const snow_options *options, snow_grid **grid)
+{
+    snow_reiter_params params = self->params;
+    params.record_freeze_steps = dated;
+    return snow_reiter_create(&params, options, grid);
+}
+
 static void set_defaults(panel *self)
 {
+    self->create = create_reiter;
     snow_reiter_params_init(&self->params, sizeof self->params);
     snow_reiter_conditions_init(&self->conditions, sizeof self->conditions);
     snow_summary_init(&self->summary, sizeof self->summary);
@@ -127,16 +135,25 @@ static layout lay_out(const sheet *self)
     return place;
 }
 
+/* Columns from a label to the next, so that none covers another. */
+static int32_t label_interval(const sheet *self, const layout *place)
+{
+    double widest = 0;
+    for (int32_t i = 0; i < self->columns; i++)
+        widest = fmax(widest, label_width(self->column_labels[i], place->text));
+    return (int32_t)((widest + place->text) / place->column) + 1;
+}
+
 static void write_words(const sheet *self, const picture *image, const layout *place)
 {
     picture target = *image;
     double text = place->text;
     double half = self->panel_size / 2.0;
-    for (int32_t i = 0; self->column_labels && i < self->columns; i++)
+    for (int32_t i = 0; self->column_labels && i < self->columns; i += label_interval(self, place))
         label_draw(&target, self->column_labels[i], text,
                    place->left + i * place->column + half - label_width(self->column_labels[i], text) / 2,
                    place->top - text, words);
-    for (int32_t i = 0; self->row_labels && i < self->rows; i++)
+    for (int32_t i = 0; self->row_labels && i < self->rows; i += (int32_t)(1.5 * text / place->row) + 1)
         label_draw(&target, self->row_labels[i], text,
                    place->left - text - label_width(self->row_labels[i], text),
                    place->top + i * place->row + half + text / 2, words);
@@ -190,10 +207,9 @@ static snow_status start_panel(void *context, size_t index, const snow_options *
                                snow_grid **grid)
 {
     const work *shared = context;
-    panel *it = &shared->self->panels[index];
+    const panel *it = &shared->self->panels[index];
     *stop = it->stop;
-    it->params.record_freeze_steps = shared->self->palette == SNOW_PALETTE_AGE;
-    return snow_reiter_create(&it->params, options, grid);
+    return it->create(it, palette_shows_age(shared->self->palette), options, grid);
 }
 
 /* What an unstable field leaves is worth drawing, too. */
@@ -272,7 +288,7 @@ static int check_panels(const sheet *self)
 {
     for (int32_t i = 0; i < self->count; i++) {
         snow_grid *grid = NULL;
-        snow_status status = snow_reiter_create(&self->panels[i].params, NULL, &grid);
+        snow_status status = self->panels[i].create(&self->panels[i], false, NULL, &grid);
         snow_destroy(grid);
         if (status != SNOW_OK)
             return complain_status(NULL, status);

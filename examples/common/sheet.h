@@ -11,6 +11,9 @@
 enum { LONGEST_LABEL = 96 };
 
 typedef struct panel {
+    /* Makes its grid: of Reiter's model from `params`, or what a program of another model puts here. */
+    snow_status (*create)(const struct panel *self, bool dated, const snow_options *options, snow_grid **grid);
+    const void *crystal; /* for such a program */
     snow_reiter_params params;
     snow_stop stop;
     bool changes; /* goes on under other conditions until `stop_again` */

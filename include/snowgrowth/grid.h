@@ -40,6 +40,7 @@ typedef struct snow_grid snow_grid;
 /** @brief The models that a grid can follow. */
 typedef enum snow_model {
     SNOW_MODEL_REITER = 1,   /**< Reiter's two-parameter model of 2005; see reiter.h. */
+    SNOW_MODEL_PACKARD = 2,  /**< Packard's Boolean rules, with zones; see packard.h. */
     SNOW_MODEL_AGGREGATE = 3 /**< Aggregation and erosion; see aggregate.h. */
 } snow_model;
 

@@ -13,7 +13,7 @@
  * section 3). Cells outside the interior hold u = β for ever.
  *
  * Decisions of this library, argued in doc/reiter.md: a cell is ice where
- * u >= 1 − 2^−40; vapour is kept in whole multiples of a power of two, so that
+ * u >= 1 − 2^−40 (in single precision 1 − 2 quanta of the vapour); vapour is kept in whole multiples of a power of two, so that
  * sums are exact and no result depends on the order of additions.
  */
 #ifndef SNOWGROWTH_REITER_H
@@ -75,6 +75,17 @@ typedef enum snow_reiter_symmetry {
 } snow_reiter_symmetry;
 
 /**
+ * @brief How finely vapour is kept.
+ *
+ * B is the smallest power of two that no vapour of the scene passes: 1/2 for
+ * β = 0.4. What receptive cells collect is kept in double precision in any case.
+ */
+typedef enum snow_reiter_precision {
+    SNOW_REITER_PRECISION_DOUBLE = 0, /**< In multiples of 2^−50·B, 8 bytes: ice as in exact arithmetic in every scene tried. */
+    SNOW_REITER_PRECISION_SINGLE = 1  /**< In multiples of 2^−28·B, 4 bytes: about twice as fast; ice from two multiples below 1 on; close calls may fall otherwise (doc/accuracy.md). */
+} snow_reiter_precision;
+
+/**
  * @brief A number for each cell, asked for once when the grid is created.
  * @param context the caller's own pointer.
  * @param q,r the cell: of the interior, or next to it.
@@ -115,6 +126,20 @@ typedef struct snow_reiter_params {
     int32_t allow_unstable;      /**< 1: diffusion up to 4 is allowed; 0 by default. */
     snow_reiter_engine engine;   /**< SNOW_REITER_ENGINE_AUTO by default. */
     snow_reiter_symmetry symmetry; /**< SNOW_REITER_SYMMETRY_AUTO by default. */
+    snow_reiter_precision precision; /**< SNOW_REITER_PRECISION_DOUBLE by default; SINGLE not with the engine QUAD. */
+
+    /**
+     * τ, 0 <= τ <= 1; 0 by default: every change is computed. Above 0, pieces of
+     * the plane (8 × 4 cells) in which, and around which, no cell changes by
+     * more than τ in a step stand still until the next look at all of the plane;
+     * one step in 64 is such a look. After t steps the vapour is wrong by at most
+     * t·(1 + 32·α)·τ as long as the ice is the same, for α <= 2; what is measured is far
+     * less (doc/accuracy.md). Bits then depend on `symmetry`, but still on no
+     * instruction set or thread count; and a grid that is loaded looks at all of
+     * the plane anew, so that its bits part from those of the one that was saved,
+     * within the same bound. Only with the engine ROWS or AUTO.
+     */
+    double tolerance;
 } snow_reiter_params;
 
 /**
@@ -173,7 +198,8 @@ SNOW_API const char *snow_reiter_preset_source(size_t index);
  *         ::SNOW_ERROR_STRUCT_TAIL; ::SNOW_ERROR_ENUM; ::SNOW_ERROR_RANGE for
  *         a flag that is neither 0 nor 1, a thread count out of range, or one
  *         of allocate and release without the other; ::SNOW_ERROR_NOT_FINITE;
- *         ::SNOW_ERROR_REITER_BACKGROUND to ::SNOW_ERROR_REITER_RIM for the
+ *         ::SNOW_ERROR_REITER_BACKGROUND to ::SNOW_ERROR_REITER_RIM,
+ *         ::SNOW_ERROR_REITER_PRECISION and ::SNOW_ERROR_REITER_TOLERANCE for the
  *         scene; ::SNOW_ERROR_NO_MEMORY, ::SNOW_ERROR_TOO_LARGE,
  *         ::SNOW_ERROR_MEMORY_LIMIT, ::SNOW_ERROR_THREADS, ::SNOW_ERROR_ISA.
  */

@@ -24,7 +24,8 @@ typedef enum snow_palette {
     SNOW_PALETTE_PAPER = 1, /**< The paper's greys: vapour in the darker half, 0 black; ice in the lighter half, reversed, 1 white. */
     SNOW_PALETTE_FROST = 2, /**< White to blue ice on a night sky that brightens with the vapour. */
     SNOW_PALETTE_INK = 3,   /**< Dark blue ice on white, for print. */
-    SNOW_PALETTE_AGE = 4    /**< Ice by its freeze step, from dark violet (first) over red to light yellow (last); needs recorded freeze steps. */
+    SNOW_PALETTE_AGE = 4,   /**< Ice by its freeze step, from dark violet (first) over red to light yellow (last); needs recorded freeze steps. */
+    SNOW_PALETTE_PHASE = 5  /**< Ice by its freeze step modulo 16, round a circle of colours; needs recorded freeze steps. */
 } snow_palette;
 
 /** @brief Layout of a pixel. */
@@ -88,8 +89,8 @@ SNOW_API snow_status snow_view_fit(const snow_grid *grid, int32_t side, snow_vie
  *         ::SNOW_ERROR_STRUCT_TAIL, ::SNOW_ERROR_ENUM, ::SNOW_ERROR_RANGE,
  *         ::SNOW_ERROR_NOT_FINITE; ::SNOW_ERROR_BUFFER when capacity is too
  *         small, nothing is drawn; ::SNOW_ERROR_NOT_RECORDED for
- *         ::SNOW_PALETTE_AGE without freeze steps; ::SNOW_ERROR_UNSUPPORTED when
- *         cells are no hexagons. Cost: samples² look-ups a
+ *         ::SNOW_PALETTE_AGE and ::SNOW_PALETTE_PHASE without freeze steps;
+ *         ::SNOW_ERROR_UNSUPPORTED when cells are no hexagons. Cost: samples² look-ups a
  *         pixel, and a few reads a cell; no memory is asked for.
  */
 SNOW_API snow_status snow_render(const snow_grid *grid, const snow_view *view, void *pixels, size_t capacity,

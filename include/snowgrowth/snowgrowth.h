@@ -8,7 +8,9 @@
 #include <snowgrowth/aggregate.h>
 #include <snowgrowth/export.h>
 #include <snowgrowth/grid.h>
+#include <snowgrowth/measure.h>
 #include <snowgrowth/options.h>
+#include <snowgrowth/packard.h>
 #include <snowgrowth/reiter.h>
 #include <snowgrowth/render.h>
 #include <snowgrowth/status.h>

@@ -110,6 +110,45 @@ typedef enum snow_status {
     SNOW_ERROR_REITER_VAPOUR = 1010,
     /** No preset has this name. */
     SNOW_ERROR_REITER_PRESET = 1011,
+    /** The engine does not keep vapour in this precision. */
+    SNOW_ERROR_REITER_PRECISION = 1012,
+    /** The tolerance is not in 0 <= tolerance <= 1, or the engine has none. */
+    SNOW_ERROR_REITER_TOLERANCE = 1013,
+
+    /* 2xxx: Packard's model. */
+
+    /** The text is not a rule in any of the known spellings. */
+    SNOW_ERROR_PACKARD_RULE = 2000,
+    /** A rule of digits does not have seven of them. */
+    SNOW_ERROR_PACKARD_RULE_LENGTH = 2001,
+    /** A rule has a digit that is not allowed there: neither 0 nor 1, or a number of neighbours beyond 6. */
+    SNOW_ERROR_PACKARD_RULE_DIGIT = 2002,
+    /** Frozen cells would melt: not all numbers from 0 to 6 follow the S. */
+    SNOW_ERROR_PACKARD_RULE_MELTS = 2003,
+    /** The rule is for another lattice: it lacks the final H. */
+    SNOW_ERROR_PACKARD_RULE_LATTICE = 2004,
+    /** The rule's bounded universe is neither a torus (T) nor a rhombus (P). */
+    SNOW_ERROR_PACKARD_RULE_DOMAIN = 2005,
+    /** With d0 = 1 cells without frozen neighbours freeze: on the unbounded plane all at once. */
+    SNOW_ERROR_PACKARD_BIRTH = 2006,
+    /** The radius of the disc or hexagon is not in 1 <= radius <= 2^20. */
+    SNOW_ERROR_PACKARD_RADIUS = 2007,
+    /** The sides of rectangle, rhombus, torus or scatter are not in 1 <= side <= 2^21. */
+    SNOW_ERROR_PACKARD_SIDES = 2008,
+    /** A seed lies outside the domain. */
+    SNOW_ERROR_PACKARD_SEED = 2009,
+    /** The side of the random patch is not in 0 <= side <= 1024, or seeds are given as well. */
+    SNOW_ERROR_PACKARD_CLUSTER = 2010,
+    /** The scatter asks for more than half of the cells, or is given beside seeds or a patch. */
+    SNOW_ERROR_PACKARD_SCATTER = 2011,
+    /** The forced engine cannot compute the scene: the quadtree is for the plane and keeps no freeze steps. */
+    SNOW_ERROR_PACKARD_ENGINE = 2012,
+    /** A zone's width, angle, distance or step is out of range, or it has both a mask and a predicate. */
+    SNOW_ERROR_PACKARD_ZONE = 2013,
+    /** The text is not a pattern in run-length encoding. */
+    SNOW_ERROR_PACKARD_RLE = 2014,
+    /** The pattern has cells that are neither dead nor alive. */
+    SNOW_ERROR_PACKARD_RLE_STATES = 2015,
 
     /* 3xxx: aggregation and erosion. */
 

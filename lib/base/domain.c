@@ -152,20 +152,25 @@ static uint64_t triangle(int64_t side)
     return n % 2 == 0 ? n / 2 * (n + 1) : (n + 1) / 2 * n;
 }
 
+void snow_domain_fill(snow_domain *domain, const snow_hexagon *hexagon)
+{
+    *domain = (snow_domain){.hexagon = *hexagon, .too_large = !snow_domain_reaches(hexagon)};
+    if (domain->too_large)
+        return;
+    domain->bounds = snow_domain_rect(hexagon);
+    domain->top = domain->bounds.r;
+    domain->rows = domain->bounds.height;
+    domain->cells = (uint64_t)domain->bounds.width * (uint64_t)domain->bounds.height -
+                    triangle(hexagon->least_s - hexagon->least_q - hexagon->least_r) -
+                    triangle(hexagon->greatest_q + hexagon->greatest_r - hexagon->greatest_s);
+}
+
 void snow_domain_follow(snow_domain *domain, const snow_hexagon *crystal)
 {
     snow_hexagon hexagon = snow_hexagon_is_empty(crystal) ? (snow_hexagon){0, 0, 0, 0, 0, 0} : *crystal;
     hexagon.least_q--, hexagon.least_r--, hexagon.least_s--;
     hexagon.greatest_q++, hexagon.greatest_r++, hexagon.greatest_s++;
-    *domain = (snow_domain){.hexagon = hexagon, .too_large = !snow_domain_reaches(&hexagon)};
-    if (domain->too_large)
-        return;
-    domain->bounds = snow_domain_rect(&hexagon);
-    domain->top = domain->bounds.r;
-    domain->rows = domain->bounds.height;
-    domain->cells = (uint64_t)domain->bounds.width * (uint64_t)domain->bounds.height -
-                    triangle(hexagon.least_s - hexagon.least_q - hexagon.least_r) -
-                    triangle(hexagon.greatest_q + hexagon.greatest_r - hexagon.greatest_s);
+    snow_domain_fill(domain, &hexagon);
 }
 
 void snow_domain_end(snow_domain *domain, snow_heap *heap)

@@ -38,6 +38,9 @@ static inline snow_run_of_cells snow_domain_hexagon_row(const snow_hexagon *hexa
     return (snow_run_of_cells){(int32_t)first, (int32_t)(last + 1), 0};
 }
 
+/* The domain becomes a hexagon, which is not empty. */
+void snow_domain_fill(snow_domain *domain, const snow_hexagon *hexagon);
+
 /* The domain becomes the smallest hexagon that holds the cells of another one
    and their neighbours; those of the origin, where that is empty. */
 void snow_domain_follow(snow_domain *domain, const snow_hexagon *crystal);

@@ -44,6 +44,26 @@ const char *snow_strerror(snow_status status)
     case SNOW_ERROR_REITER_RESCALE: return "a background of 0 cannot be rescaled";
     case SNOW_ERROR_REITER_VAPOUR: return "vapour must be at least 0 and less than 1";
     case SNOW_ERROR_REITER_PRESET: return "there is no preset of this name";
+    case SNOW_ERROR_REITER_PRECISION: return "the quad engine has no single precision";
+    case SNOW_ERROR_REITER_TOLERANCE:
+        return "the tolerance must be between 0 and 1, and 0 where the engine computes every cell";
+    case SNOW_ERROR_PACKARD_RULE: return "the rule is neither seven digits nor like B135/S0123456H";
+    case SNOW_ERROR_PACKARD_RULE_LENGTH: return "a rule of digits must have seven of them";
+    case SNOW_ERROR_PACKARD_RULE_DIGIT: return "a digit of the rule is out of range";
+    case SNOW_ERROR_PACKARD_RULE_MELTS: return "the rule would let frozen cells melt: it must end with S0123456H";
+    case SNOW_ERROR_PACKARD_RULE_LATTICE: return "the rule is not for the hexagonal lattice: it must end with H";
+    case SNOW_ERROR_PACKARD_RULE_DOMAIN: return "the rule's universe must be like T20,13 (torus) or P20,13 (rhombus)";
+    case SNOW_ERROR_PACKARD_BIRTH: return "a rule with d0 = 1 (B0) would freeze the unbounded plane at once";
+    case SNOW_ERROR_PACKARD_RADIUS: return "the radius of a disc or hexagon must be between 1 and 1048576";
+    case SNOW_ERROR_PACKARD_SIDES: return "sides must be between 1 and 2097152";
+    case SNOW_ERROR_PACKARD_SEED: return "a cell that is frozen at the start lies outside the domain";
+    case SNOW_ERROR_PACKARD_CLUSTER: return "the random patch must have a side from 0 to 1024 and no seeds beside it";
+    case SNOW_ERROR_PACKARD_SCATTER:
+        return "scattered seeds may fill at most half of their cells, with no other seeds beside them";
+    case SNOW_ERROR_PACKARD_ENGINE: return "the forced engine cannot compute this scene";
+    case SNOW_ERROR_PACKARD_ZONE: return "a width, angle, distance or step of the zone is out of range";
+    case SNOW_ERROR_PACKARD_RLE: return "the text is not a run-length encoded pattern";
+    case SNOW_ERROR_PACKARD_RLE_STATES: return "the pattern has cells of more than two states";
     case SNOW_ERROR_AGGREGATE_LATTICE: return "the scene is not for this lattice";
     case SNOW_ERROR_AGGREGATE_CONTACT: return "the scene knows the contact rule of arrival only";
     case SNOW_ERROR_AGGREGATE_STICKING: return "the chance of sticking must be above 0 and at most 1";

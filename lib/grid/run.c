@@ -130,7 +130,7 @@ static snow_status run(snow_grid *grid, const snow_stop *stop, double started, c
     return SNOW_OK;
 }
 
-static snow_status check_stop(const snow_stop *stop)
+static SNOW_APART snow_status check_stop(const snow_stop *stop)
 {
     if (!isfinite(stop->tip_radius) || !isfinite(stop->seconds))
         return SNOW_ERROR_NOT_FINITE;
@@ -149,7 +149,11 @@ snow_status snow_stop_read(const snow_stop *caller, snow_stop *stop)
     if (status != SNOW_OK)
         return status;
     snow_struct_read(stop, sizeof *stop, caller);
-    return check_stop(stop);
+    snow_floating floating;
+    snow_floating_enter(&floating);
+    status = check_stop(stop);
+    snow_floating_leave(&floating);
+    return status;
 }
 
 snow_status snow_run(snow_grid *grid, const snow_stop *caller_stop, snow_summary *caller_summary)

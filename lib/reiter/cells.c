@@ -23,6 +23,36 @@ static bool is_near_rim(const snow_grid *grid, int32_t q, int32_t r)
     return row < REACH || row >= params->height - REACH || q < run->first + REACH || q >= run->end - REACH;
 }
 
+/* Ice advances by one cell in a step. In a rectangle the rows' ends move by half a cell from row to row. */
+static bool may_leave_middle(const snow_grid *grid, int64_t steps)
+{
+    const snow_hexagon *ice = &grid->census.hexagon;
+    const snow_domain *domain = &grid->domain;
+    int64_t margin = 2 * steps + REACH + 1;
+    snow_run_of_cells upper = snow_domain_row(domain, ice->least_r);
+    snow_run_of_cells lower = snow_domain_row(domain, ice->greatest_r);
+    return ice->least_r - domain->top < margin || domain->top + domain->rows - ice->greatest_r < margin ||
+           ice->least_q - upper.first < margin || lower.end - ice->greatest_q < margin;
+}
+
+bool snow_reiter_may_reach_rim(const snow_grid *grid, int64_t steps)
+{
+    const snow_reiter_params *params = &reiter_of(grid)->params;
+    const snow_census *census = &grid->census;
+    double reach = (double)params->radius - REACH;
+    double tip = snow_census_tip(census);
+    if (census->rim || census->frozen == 0)
+        return false;
+    switch (params->domain) {
+    case SNOW_REITER_DISC: return tip + (double)steps >= reach;
+    case SNOW_REITER_HEXAGON: return 1.1548 * tip + (double)steps >= reach; /* 2/√3 */
+    case SNOW_REITER_RECTANGLE: break;
+    }
+    if (params->rim == SNOW_REITER_RIM_ROW)
+        return census->hexagon.least_r - grid->domain.top - steps < params->height / REPORT_FRACTION;
+    return may_leave_middle(grid, steps);
+}
+
 static void count(snow_grid *grid, int32_t q, int32_t r)
 {
     snow_census_add(&grid->census, q, r);
@@ -70,35 +100,45 @@ static bool is_receptive(const snow_grid *grid, int32_t q, int32_t r)
             is_frozen(grid, q - 1, r + 1));
 }
 
-static double greater_vapour(const snow_grid *grid, snow_cell cell, double greatest)
+/* How far the vapour of the cells that are not receptive goes, fixed ones too. */
+typedef struct vapour_range {
+    double least; /* at most 0 */
+    double greatest;
+} vapour_range;
+
+static void widen(vapour_range *range, const snow_grid *grid, snow_cell cell)
 {
-    double vapour = fabs(reiter_of(grid)->engine->get(grid, cell.q, cell.r).value);
-    return vapour > greatest && !is_receptive(grid, cell.q, cell.r) ? vapour : greatest;
+    double vapour = reiter_of(grid)->engine->get(grid, cell.q, cell.r).value;
+    if ((vapour < range->least || vapour > range->greatest) && !is_receptive(grid, cell.q, cell.r)) {
+        range->least = fmin(range->least, vapour);
+        range->greatest = fmax(range->greatest, vapour);
+    }
 }
 
-/* The greatest |vapour| of the cells that are not receptive, fixed ones too. */
-static double greatest_vapour(const snow_grid *grid)
+static vapour_range find_range(const snow_grid *grid)
 {
-    double greatest = 0;
+    vapour_range range = {0, 0};
     for (snow_walk walk = reiter_walk_part(grid); snow_walk_next(&walk);)
-        greatest = greater_vapour(grid, walk.cell, greatest);
+        widen(&range, grid, walk.cell);
     for (snow_walk walk = reiter_walk_fixed(grid); snow_walk_next(&walk);)
-        greatest = greater_vapour(grid, walk.cell, greatest);
-    return greatest;
+        widen(&range, grid, walk.cell);
+    return range;
 }
 
 void snow_reiter_choose_bound(snow_grid *grid)
 {
     reiter *model = reiter_of(grid);
-    double greatest = greatest_vapour(grid);
+    vapour_range range = find_range(grid);
+    double greatest = fmax(range.greatest, -range.least);
     double bound = least_bound;
     while (bound < greatest)
         bound *= 2;
-    bound = bound < 1 ? bound : 1;
     if (model->params.diffusion > SNOW_REITER_STABLE_DIFFUSION)
-        bound *= 1024;
+        bound = fmin(bound, 1) * 1024;
     else if (reiter_overshoots(model))
         bound *= 4;
+    else if (range.least < 0)
+        bound *= 2; /* of a diffusion above 2; sums of both signs are twice as large */
     model->bound = bound;
 }
 

@@ -48,7 +48,7 @@ static bool rescale_cells(snow_grid *grid, snow_walk walk, const rescaling *scal
         if (cell.receptive)
             continue;
         rescale(&cell, scale);
-        if (!(cell.value < reiter_threshold()))
+        if (!(cell.value < reiter_threshold(reiter_of(grid))))
             return false;
         if (commit)
             engine->put(grid, walk.cell.q, walk.cell.r, &cell);
@@ -101,8 +101,9 @@ static void change_addition(snow_grid *grid, double addition)
 static snow_status change(snow_grid *grid, const snow_reiter_conditions *conditions)
 {
     reiter *model = reiter_of(grid);
-    snow_status status = SNOW_OK;
-    if (conditions->background != model->params.background)
+    snow_status status = snow_reiter_conditions_check(conditions->background, conditions->addition,
+                                                      conditions->diffusion, model->params.allow_unstable != 0);
+    if (status == SNOW_OK && conditions->background != model->params.background)
         status = change_background(grid, conditions);
     if (status != SNOW_OK)
         return status;
@@ -130,10 +131,6 @@ snow_status snow_reiter_change(snow_grid *grid, const snow_reiter_conditions *ca
     snow_struct_read(&conditions, sizeof conditions, caller);
     if (conditions.rescale != 0 && conditions.rescale != 1)
         return SNOW_ERROR_RANGE;
-    status = snow_reiter_conditions_check(conditions.background, conditions.addition, conditions.diffusion,
-                                          reiter_of(grid)->params.allow_unstable != 0);
-    if (status != SNOW_OK)
-        return status;
     snow_floating floating;
     snow_floating_enter(&floating);
     status = change(grid, &conditions);

@@ -115,12 +115,30 @@ static void destroy(snow_grid *grid)
     snow_heap_put(&grid->heap, model);
 }
 
+/* Whether no condition on the crystal can come true within so many steps. */
+static bool is_far_from_stop(const snow_grid *grid, const snow_stop *stop, int64_t steps)
+{
+    if (stop == NULL)
+        return true;
+    if (stop->frozen > 0 || (stop->tip_radius > 0 && snow_census_tip(&grid->census) + (double)steps >= stop->tip_radius))
+        return false;
+    return !stop->rim || !snow_reiter_may_reach_rim(grid, steps);
+}
+
+static snow_status take_steps(snow_grid *grid, int64_t most, const snow_stop *stop)
+{
+    const reiter_engine *engine = reiter_of(grid)->engine;
+    int64_t together = engine->pass_steps != NULL ? engine->pass_steps(grid) : 0;
+    if (together == 0 || together > most || !is_far_from_stop(grid, stop, together))
+        return engine->step(grid);
+    engine->pass(grid);
+    return SNOW_OK;
+}
+
 static snow_status advance(snow_grid *grid, int64_t most, const snow_stop *stop)
 {
-    (void)most;
-    (void)stop;
     snow_census *census = &grid->census;
-    snow_status status = reiter_of(grid)->engine->step(grid);
+    snow_status status = take_steps(grid, most, stop);
     if (status == SNOW_OK && census->steps % REITER_MERGE_STEPS == 0)
         snow_reiter_merge_additions(grid);
     return status;

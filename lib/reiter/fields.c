@@ -103,7 +103,7 @@ static snow_status put_value(snow_grid *grid, int32_t q, int32_t r, double value
 {
     reiter *model = reiter_of(grid);
     bool was_frozen = model->engine->get(grid, q, r).frozen;
-    reiter_cell cell = {.value = value, .frozen = value >= reiter_threshold()};
+    reiter_cell cell = {.value = value, .frozen = value >= reiter_threshold(model)};
     model->engine->put(grid, q, r, &cell);
     if (model->freeze_step != NULL && was_frozen != cell.frozen)
         model->freeze_step[model->engine->number(grid, q, r)] =
@@ -116,7 +116,7 @@ static snow_status check_vapour(snow_grid *grid, int32_t q, int32_t r, double va
     if (reiter_of(grid)->engine->get(grid, q, r).receptive)
         return SNOW_OK;
     snow_status status = check_sign(grid, value);
-    if (status == SNOW_OK && value >= reiter_threshold())
+    if (status == SNOW_OK && value >= reiter_threshold(reiter_of(grid)))
         status = SNOW_ERROR_REITER_VAPOUR;
     return status;
 }

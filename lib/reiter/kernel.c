@@ -1,61 +1,37 @@
-/* Compiled once for each instruction set, with SNOW_KERNEL naming it. Vectors
-   are those of gcc and clang, as wide as the instruction set has them. */
+/* Compiled once for each precision and instruction set, with SNOW_KERNEL naming
+   the table. Vectors are those of gcc and clang, as wide as the instruction set
+   has them, but not wider than a chunk. */
 #include "reiter/kernel.h"
 
 #include <string.h>
 
-#if defined(__AVX2__) || defined(__FMA__)
+#if defined(__AVX2__)
 #include <immintrin.h>
+#elif defined(__SSE2__)
+#include <emmintrin.h>
 #endif
 
-#define JOIN(a, b) a##b
-#define TABLE(isa) JOIN(snow_reiter_kernel_, isa)
-
-#if defined(__AVX512F__)
-#define VECTOR_BYTES 64
-#elif defined(__AVX2__)
-#define VECTOR_BYTES 32
+#ifdef SNOW_SINGLE
+#include "reiter/kernel_single.h"
 #else
-#define VECTOR_BYTES 16
+#include "reiter/kernel_double.h"
 #endif
-#define LANES (VECTOR_BYTES / (int)sizeof(double))
 
-typedef double vector __attribute__((vector_size(VECTOR_BYTES)));
-typedef int64_t lanes __attribute__((vector_size(VECTOR_BYTES)));
-typedef double loose_vector __attribute__((vector_size(VECTOR_BYTES), aligned(8), may_alias));
-typedef double tight_vector __attribute__((vector_size(VECTOR_BYTES), may_alias));
-typedef int64_t tight_lanes __attribute__((vector_size(VECTOR_BYTES), may_alias));
+#define LANES (VECTOR_BYTES / (int)sizeof(element))
 
-static inline vector load(const double *from)
+static inline vector load(const element *from)
 {
     return (vector) * (const loose_vector *)from;
 }
 
-static inline vector load_aligned(const double *from)
+static inline vector load_aligned(const element *from)
 {
     return (vector) * (const tight_vector *)from;
 }
 
-static inline void store_aligned(double *to, vector value)
+static inline void store_aligned(element *to, vector value)
 {
     *(tight_vector *)to = value;
-}
-
-static inline vector spread(double x)
-{
-    return x - (vector){0};
-}
-
-/* x·y + z where x·y is exact: the same with and without a fused instruction. */
-static inline vector combine(vector x, vector y, vector z)
-{
-#if defined(__AVX512F__)
-    return _mm512_fmadd_pd(x, y, z);
-#elif defined(__AVX2__) && defined(__FMA__)
-    return _mm256_fmadd_pd(x, y, z);
-#else
-    return x * y + z;
-#endif
 }
 
 /* Keeps a loaded vector in its register; compilers would rather load it again. */
@@ -65,18 +41,6 @@ static inline vector combine(vector x, vector y, vector z)
 #define KEEP(x) ((void)0)
 #endif
 
-/* What stays the same for all cells of a step. */
-typedef struct constants {
-    vector weight;
-    vector rounder;
-    vector minus_six;
-} constants;
-
-static inline constants constants_of(const reiter_flow *flow)
-{
-    return (constants){spread(flow->weight), spread(flow->rounder), spread(-6)};
-}
-
 /* A row's cells at one place: themselves, and shifted by one. */
 typedef struct row_cells {
     vector left;
@@ -84,7 +48,7 @@ typedef struct row_cells {
     vector right;
 } row_cells;
 
-static inline row_cells load_row(const double *at)
+static inline row_cells load_row(const element *at)
 {
     row_cells cells = {load(at - 1), load_aligned(at), load(at + 1)};
     KEEP(cells.left);
@@ -93,37 +57,41 @@ static inline row_cells load_row(const double *at)
     return cells;
 }
 
-/* What flows into the cells of a row, rounded to the quantum. The sum is exact
-   (doc/reiter.md), so its order is free. */
+/* What flows into the cells of a row, a multiple of the quantum. The sum is
+   exact (doc/reiter.md), so its order is free. */
 static inline vector inflow(vector above_sum, row_cells row, vector below_sum, const constants *with)
 {
     vector level = row.left + row.right;
-    vector sum = level + combine(row.here, with->minus_six, above_sum + below_sum);
-    return (with->weight * sum + with->rounder) - with->rounder;
+    return flow_of(level + less_six(above_sum + below_sum, row.here, with), with);
 }
 
 /* All ones in the lanes of a chunk that a mask names, from lane `first` on. */
 static inline lanes lanes_of(uint8_t mask, int first)
 {
-    static const _Alignas(64) int64_t bit[REITER_CHUNK] = {1, 2, 4, 8, 16, 32, 64, 128};
+    static const _Alignas(64) lane bit[REITER_CHUNK] = {1, 2, 4, 8, 16, 32, 64, 128};
     lanes bits = (lanes) * (const tight_lanes *)(bit + first);
     return (bits & mask) != (lanes){0};
 }
 
 static inline bool any(lanes flags)
 {
-#if defined(__AVX512F__)
+#if VECTOR_BYTES == 64
     return _mm512_test_epi64_mask((__m512i)flags, (__m512i)flags) != 0;
-#elif defined(__AVX2__)
+#elif VECTOR_BYTES == 32
     return !_mm256_testz_si256((__m256i)flags, (__m256i)flags);
 #else
-    _Alignas(VECTOR_BYTES) int64_t lane[LANES];
-    *(tight_lanes *)lane = flags;
-    int64_t all = 0;
+    _Alignas(VECTOR_BYTES) lane each[LANES];
+    *(tight_lanes *)each = flags;
+    lane all = 0;
     for (int i = 0; i < LANES; i++)
-        all |= lane[i];
+        all |= each[i];
     return all != 0;
 #endif
+}
+
+static inline lanes is_beyond(vector value, vector limit)
+{
+    return ~((value <= limit) & (value >= -limit));
 }
 
 /* The four rows of a band at one place, each with the flow that it gets. */
@@ -132,7 +100,7 @@ typedef struct band_flow {
     vector flow[REITER_BAND];
 } band_flow;
 
-static inline band_flow flow_at(const double *row, const double *above, const double *below, size_t stride,
+static inline band_flow flow_at(const element *row, const element *above, const element *below, size_t stride,
                                 const constants *with)
 {
     row_cells r0 = load_row(row);
@@ -157,10 +125,11 @@ static inline bool is_full(const reiter_segment *segment)
 
 static void full_segment(const reiter_flow *flow, const reiter_segment *segment)
 {
-    const double *row = flow->vapour + segment->row;
-    const double *above = flow->vapour + segment->above;
-    const double *below = flow->vapour + segment->below;
-    double *next = flow->next + segment->row;
+    const element *vapour = flow->vapour;
+    const element *row = vapour + segment->row;
+    const element *above = vapour + segment->above;
+    const element *below = vapour + segment->below;
+    element *next = (element *)flow->next + segment->row;
     size_t stride = segment->stride;
     constants with = constants_of(flow);
     for (size_t i = 0; i < (size_t)segment->chunks * REITER_CHUNK; i += LANES) {
@@ -175,18 +144,40 @@ static void full_segment(const reiter_flow *flow, const reiter_segment *segment)
 /* One chunk, of which the masks name the cells; says whether anything flows. */
 static inline bool masked_chunk(const reiter_flow *flow, const reiter_segment *segment, size_t shift)
 {
-    const double *row = flow->vapour + segment->row + shift;
-    const double *above = flow->vapour + segment->above + shift;
-    const double *below = flow->vapour + segment->below + shift;
-    double *next = flow->next + segment->row + shift;
+    const element *vapour = flow->vapour;
+    const element *row = vapour + segment->row + shift;
+    const element *above = vapour + segment->above + shift;
+    const element *below = vapour + segment->below + shift;
+    element *next = (element *)flow->next + segment->row + shift;
     constants with = constants_of(flow);
     lanes flowing = {0};
     for (int i = 0; i < REITER_CHUNK; i += LANES) {
         band_flow band = flow_at(row + i, above + i, below + i, segment->stride, &with);
         for (int own = 0; own < REITER_BAND; own++) {
             vector flowed = (vector)((lanes)band.flow[own] & lanes_of(segment->mask[own], i));
-            flowing |= flowed != (vector){0};
+            flowing |= is_beyond(flowed, with.tolerance);
             store_aligned(next + (size_t)own * segment->stride + i, band.here[own] + flowed);
+        }
+    }
+    return any(flowing);
+}
+
+/* One chunk of which all cells are computed; says whether anything flows. */
+static inline bool full_chunk(const reiter_flow *flow, const reiter_segment *segment, size_t shift, bool tolerates)
+{
+    const element *vapour = flow->vapour;
+    const element *row = vapour + segment->row + shift;
+    const element *above = vapour + segment->above + shift;
+    const element *below = vapour + segment->below + shift;
+    element *next = (element *)flow->next + segment->row + shift;
+    constants with = constants_of(flow);
+    lanes flowing = {0};
+    for (int i = 0; i < REITER_CHUNK; i += LANES) {
+        band_flow band = flow_at(row + i, above + i, below + i, segment->stride, &with);
+        for (int own = 0; own < REITER_BAND; own++) {
+            /* A flow of nothing has no bit set. */
+            flowing |= tolerates ? is_beyond(band.flow[own], with.tolerance) : (lanes)band.flow[own];
+            store_aligned(next + (size_t)own * segment->stride + i, band.here[own] + band.flow[own]);
         }
     }
     return any(flowing);
@@ -202,34 +193,44 @@ static void diffuse(const reiter_flow *flow, const reiter_segment *segments, siz
     }
 }
 
-static void diffuse_and_look(const reiter_flow *flow, const reiter_segment *segments, size_t count, uint64_t *flowing)
+static inline void look_at_segment(const reiter_flow *flow, const reiter_segment *segment, uint64_t *flowing,
+                                   bool tolerates)
 {
-    for (const reiter_segment *segment = segments; segment < segments + count; segment++) {
-        for (size_t chunk = 0; chunk < segment->chunks; chunk++) {
-            size_t bit = segment->bit + chunk;
-            if (masked_chunk(flow, segment, chunk * REITER_CHUNK))
-                flowing[bit / 64] |= UINT64_C(1) << bit % 64;
-        }
+    bool full = is_full(segment);
+    for (size_t chunk = 0; chunk < segment->chunks; chunk++) {
+        size_t bit = segment->bit + chunk;
+        size_t shift = chunk * REITER_CHUNK;
+        if (full ? full_chunk(flow, segment, shift, tolerates) : masked_chunk(flow, segment, shift))
+            flowing[bit / 64] |= UINT64_C(1) << bit % 64;
     }
 }
 
-static bool exceeds(const double *cells, const reiter_segment *segments, size_t count, double limit)
+static void diffuse_and_look(const reiter_flow *flow, const reiter_segment *segments, size_t count, uint64_t *flowing)
 {
+    for (const reiter_segment *segment = segments; segment < segments + count; segment++) {
+        if (flow->tolerance > 0)
+            look_at_segment(flow, segment, flowing, true);
+        else
+            look_at_segment(flow, segment, flowing, false);
+    }
+}
+
+static bool exceeds(const void *field, const reiter_segment *segments, size_t count, double limit)
+{
+    const element *cells = field;
     lanes beyond = {0};
-    vector greatest = spread(limit);
+    vector greatest = spread(element_of(limit));
     for (const reiter_segment *segment = segments; segment < segments + count; segment++) {
         for (size_t own = 0; own < REITER_BAND; own++) {
-            const double *row = cells + segment->row + own * segment->stride;
-            for (size_t i = 0; i < (size_t)segment->chunks * REITER_CHUNK; i += LANES) {
-                vector value = load_aligned(row + i);
-                beyond |= ~((value <= greatest) & (value >= -greatest));
-            }
+            const element *row = cells + segment->row + own * segment->stride;
+            for (size_t i = 0; i < (size_t)segment->chunks * REITER_CHUNK; i += LANES)
+                beyond |= is_beyond(load_aligned(row + i), greatest);
         }
     }
     return any(beyond);
 }
 
-const reiter_kernel TABLE(SNOW_KERNEL) = {
+const reiter_kernel SNOW_KERNEL = {
     .diffuse = diffuse,
     .diffuse_and_look = diffuse_and_look,
     .exceeds = exceeds,

@@ -24,11 +24,14 @@ typedef struct reiter_segment {
     uint8_t mask[REITER_BAND];
 } reiter_segment;
 
+/* Vapour is kept as doubles or, in single precision, as 32-bit multiples of the
+   quantum; limits are in the same units. */
 typedef struct reiter_flow {
-    const double *vapour;
-    double *next;
-    double weight;  /* α/12 */
-    double rounder; /* adding and subtracting it rounds a flow to the quantum */
+    const void *vapour;
+    void *next;
+    double weight;    /* α/12 */
+    double rounder;   /* adding and subtracting it rounds a flow to the quantum; doubles only */
+    double tolerance; /* flows up to this count as none when a kernel looks */
 } reiter_flow;
 
 typedef struct reiter_kernel {
@@ -37,11 +40,14 @@ typedef struct reiter_kernel {
     /* The same; sets the bits of the chunks in which anything flows. */
     void (*diffuse_and_look)(const reiter_flow *flow, const reiter_segment *segments, size_t count, uint64_t *flowing);
     /* Whether any cell of the segments is beyond ±limit. */
-    bool (*exceeds)(const double *cells, const reiter_segment *segments, size_t count, double limit);
+    bool (*exceeds)(const void *cells, const reiter_segment *segments, size_t count, double limit);
 } reiter_kernel;
 
-extern const reiter_kernel snow_reiter_kernel_baseline;
-extern const reiter_kernel snow_reiter_kernel_avx2;
-extern const reiter_kernel snow_reiter_kernel_avx512;
+extern const reiter_kernel snow_reiter_double_baseline;
+extern const reiter_kernel snow_reiter_double_avx2;
+extern const reiter_kernel snow_reiter_double_avx512;
+extern const reiter_kernel snow_reiter_single_baseline;
+extern const reiter_kernel snow_reiter_single_avx2;
+extern const reiter_kernel snow_reiter_single_avx512;
 
 #endif

@@ -29,6 +29,10 @@ typedef struct reiter_engine {
     /* One step of the cells; tells newly frozen cells to snow_reiter_freeze().
        On failure nothing has changed. */
     snow_status (*step)(snow_grid *grid);
+    /* How many steps the engine would rather take together from here, 0: none;
+       and takes them. NULL: it never does. */
+    int64_t (*pass_steps)(const snow_grid *grid);
+    void (*pass)(snow_grid *grid);
     /* The interior cells that it keeps. */
     const snow_domain *(*part)(const snow_grid *grid);
     /* How the engine numbers its cells, for arrays beside it: 0 to numbers − 1.
@@ -80,14 +84,10 @@ static inline reiter *reiter_of(const snow_grid *grid)
     return grid->state;
 }
 
-static inline double reiter_threshold(void)
-{
-    return 1.0 - SNOW_REITER_SLACK;
-}
-
+/* Of any precision. */
 static inline bool reiter_is_vapour(double value)
 {
-    return value >= 0 && value < reiter_threshold();
+    return value >= 0 && value < 1 - SNOW_REITER_SLACK;
 }
 
 /* Whether values beyond [0, 1) can arise where no ice is near: only then are they looked for. */
@@ -96,11 +96,34 @@ static inline bool reiter_overshoots(const reiter *model)
     return model->params.diffusion > 2;
 }
 
-/* Every sum of a step is less than 2^53 of these: up to 6 times the bound where
-   vapour has one sign, 12 times where it has both. */
+static inline bool reiter_is_single(const reiter *model)
+{
+    return model->params.precision == SNOW_REITER_PRECISION_SINGLE;
+}
+
+/* Every sum of a step is less than 2^53 of these, in single precision 2^31: up
+   to 6 times the bound where vapour has one sign, 12 times where it has both. */
 static inline double reiter_quantum(const reiter *model)
 {
-    return model->bound * (reiter_overshoots(model) ? 0x1p-49 : 0x1p-50);
+    double finest = reiter_is_single(model) ? 0x1p-28 : 0x1p-50;
+    return model->bound * (reiter_overshoots(model) ? 2 * finest : finest);
+}
+
+/* α/12 in single precision. Two roundings follow, so that α = 2 needs some room
+   below 1/6 for the vapour to stay between its neighbours (doc/reiter.md). */
+static inline float reiter_single_weight(const reiter *model)
+{
+    const float greatest = 0x1.55555p-3f;
+    float weight = (float)(model->params.diffusion / 12);
+    return weight > greatest && !reiter_overshoots(model) ? greatest : weight;
+}
+
+/* From here on u is ice. A single vapour differs from its decimal number by up
+   to half a quantum, more than the slack: ties are kept within two quanta. */
+static inline double reiter_threshold(const reiter *model)
+{
+    double slack = reiter_is_single(model) ? 2 * reiter_quantum(model) : 0;
+    return 1 - (slack > SNOW_REITER_SLACK ? slack : SNOW_REITER_SLACK);
 }
 
 /* Adding and subtracting this rounds a smaller number to the quantum. */
@@ -117,8 +140,10 @@ static inline double reiter_round(double value, double rounder)
 /* A vapour as the grid holds it: a multiple of the quantum that is not ice. */
 static inline double reiter_settled(const reiter *model, double value)
 {
+    double quantum = reiter_quantum(model);
     double rounded = reiter_round(value, reiter_rounder(model));
-    return rounded < reiter_threshold() ? rounded : reiter_threshold() - reiter_quantum(model);
+    double threshold = reiter_threshold(model);
+    return rounded < threshold ? rounded : (ceil(threshold / quantum) - 1) * quantum;
 }
 
 /* β as the vapour holds it, so that no edge shows between the fixed cells and what is beyond. */
@@ -178,6 +203,8 @@ snow_status snow_reiter_unfold(snow_grid *grid, bool own_additions);
 
 /* cells.c */
 void snow_reiter_freeze(snow_grid *grid, int32_t q, int32_t r);
+/* Whether so many steps can bring ice near the rim for the first time. */
+bool snow_reiter_may_reach_rim(const snow_grid *grid, int64_t steps);
 /* Counts the frozen cells anew. */
 void snow_reiter_recount(snow_grid *grid);
 /* Chooses bound, and with it the quantum, from the greatest vapour; before settle. */

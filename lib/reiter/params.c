@@ -47,7 +47,8 @@ static snow_status check_enumerations(const snow_reiter_params *params)
     bool known = params->domain >= SNOW_REITER_DISC && params->domain <= SNOW_REITER_RECTANGLE &&
                  params->rim >= SNOW_REITER_RIM_NEAR && params->rim <= SNOW_REITER_RIM_ROW &&
                  params->engine >= SNOW_REITER_ENGINE_AUTO && params->engine <= SNOW_REITER_ENGINE_QUAD &&
-                 params->symmetry >= SNOW_REITER_SYMMETRY_AUTO && params->symmetry <= SNOW_REITER_SYMMETRY_NONE;
+                 params->symmetry >= SNOW_REITER_SYMMETRY_AUTO && params->symmetry <= SNOW_REITER_SYMMETRY_NONE &&
+                 params->precision >= SNOW_REITER_PRECISION_DOUBLE && params->precision <= SNOW_REITER_PRECISION_SINGLE;
     return known ? SNOW_OK : SNOW_ERROR_ENUM;
 }
 
@@ -81,6 +82,18 @@ static snow_status check_start(const snow_reiter_params *params)
     return SNOW_OK;
 }
 
+static snow_status check_exactness(const snow_reiter_params *params)
+{
+    if (params->precision == SNOW_REITER_PRECISION_SINGLE && params->engine == SNOW_REITER_ENGINE_QUAD)
+        return SNOW_ERROR_REITER_PRECISION;
+    if (!isfinite(params->tolerance))
+        return SNOW_ERROR_NOT_FINITE;
+    bool skips = params->engine == SNOW_REITER_ENGINE_AUTO || params->engine == SNOW_REITER_ENGINE_ROWS;
+    if (params->tolerance < 0 || params->tolerance > (skips ? 1 : 0))
+        return SNOW_ERROR_REITER_TOLERANCE;
+    return SNOW_OK;
+}
+
 snow_status snow_reiter_params_check(const snow_reiter_params *params)
 {
     if (!snow_is_flag(params->record_freeze_steps) || !snow_is_flag(params->allow_unstable) || !snow_is_flag(params->noise_symmetric))
@@ -93,5 +106,7 @@ snow_status snow_reiter_params_check(const snow_reiter_params *params)
         status = check_domain(params);
     if (status == SNOW_OK)
         status = check_start(params);
+    if (status == SNOW_OK)
+        status = check_exactness(params);
     return status;
 }

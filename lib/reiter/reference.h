@@ -7,8 +7,7 @@
      real_make(high, low)      the number high + low
      real_high(x), real_low(x)
      real_add(x, y), real_subtract(x, y), real_multiply(x, y)
-     real_divide(x, y)         of two doubles
-     real_flow(model, x)       a flow of vapour as the model keeps it
+     real_flow(model, x)       (α/12)·x as the model keeps it
      real_vapour(model, x)     a vapour as the model keeps it
      REFERENCE_ENGINE          the name of the engine's table
 
@@ -104,8 +103,7 @@ static real flow_into(const snow_grid *grid, int32_t q, int32_t r)
     for (int which = 0; which < 6; which++)
         sum = real_add(sum, vapour_of(neighbour_of(grid, q, r, which)));
     real centre = real_multiply(real_make(6, 0), vapour_of(cell_at(grid, q, r)));
-    real weight = real_divide(model->params.diffusion, 12);
-    return real_flow(model, real_multiply(weight, real_subtract(sum, centre)));
+    return real_flow(model, real_subtract(sum, centre));
 }
 
 /* u: value and additions. */
@@ -116,9 +114,9 @@ static real total_of(const snow_grid *grid, int32_t q, int32_t r, real value, ui
     return real_add(value, real_multiply(real_make(addition, 0), real_make(additions, 0)));
 }
 
-static bool is_ice(real total)
+static bool is_ice(const reiter *model, real total)
 {
-    return real_high(real_subtract(total, real_make(reiter_threshold(), 0))) >= 0;
+    return real_high(real_subtract(total, real_make(reiter_threshold(model), 0))) >= 0;
 }
 
 static bool any_beyond_bound(const snow_grid *grid)
@@ -149,7 +147,7 @@ static void take_next(snow_grid *grid, int32_t q, int32_t r)
     if (cell->frozen)
         return;
     uint32_t additions = cell->receptive ? (uint32_t)grid->census.steps - cell->since : 0;
-    if (is_ice(total_of(grid, q, r, cell->value, additions))) {
+    if (is_ice(reiter_of(grid), total_of(grid, q, r, cell->value, additions))) {
         cell->frozen = true;
         snow_reiter_freeze(grid, q, r);
     }
@@ -184,7 +182,7 @@ static bool moves(const snow_grid *grid, int32_t q, int32_t r)
     uint32_t additions = (uint32_t)grid->census.steps + 1 - cell->since;
     double total = real_high(total_of(grid, q, r, real_add(cell->value, flow), additions));
     return reiter_addition(reiter_of(grid), reference_number(grid, q, r)) > 0 ||
-           real_high(flow) * REITER_STILL_STEPS >= reiter_threshold() - total;
+           real_high(flow) * REITER_STILL_STEPS >= reiter_threshold(reiter_of(grid)) - total;
 }
 
 static bool is_still(const snow_grid *grid)

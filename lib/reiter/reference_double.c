@@ -1,4 +1,4 @@
-/* The REFERENCE engine: doubles, with the model's quantum, hence the bits of the fast engines. */
+/* The REFERENCE engine: doubles that are multiples of the model's quantum, hence the bits of the fast engines. */
 #include "reiter/model.h"
 
 typedef double real;
@@ -34,14 +34,20 @@ static double real_multiply(double x, double y)
     return x * y;
 }
 
-static double real_divide(double x, double y)
+/* In single precision the sum is a whole number of quanta that is rounded to a
+   float, then its product with the weight, then that to a whole number. */
+static double single_flow(const reiter *model, double sum)
 {
-    return x / y;
+    float quanta = (float)(sum / reiter_quantum(model));
+    float flow = (float)((double)quanta * reiter_single_weight(model));
+    return nearbyint(flow) * reiter_quantum(model);
 }
 
-static double real_flow(const reiter *model, double flow)
+static double real_flow(const reiter *model, double sum)
 {
-    return reiter_round(flow, reiter_rounder(model));
+    if (reiter_is_single(model))
+        return single_flow(model, sum);
+    return reiter_round(model->params.diffusion / 12 * sum, reiter_rounder(model));
 }
 
 static double real_vapour(const reiter *model, double vapour)

@@ -71,10 +71,9 @@ static real real_divide(double x, double y)
     return normalise(quotient, rest / y);
 }
 
-static real real_flow(const reiter *model, real flow)
+static real real_flow(const reiter *model, real sum)
 {
-    (void)model;
-    return flow;
+    return real_multiply(real_divide(model->params.diffusion, 12), sum);
 }
 
 static real real_vapour(const reiter *model, real vapour)

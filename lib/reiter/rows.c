@@ -1,13 +1,13 @@
-#include "reiter/rows.h"
+#include "reiter/rows_vapour.h"
 
 #include <string.h>
 
-static const reiter_kernel *choose_kernel(snow_isa isa)
+static const reiter_kernel *choose_kernel(snow_isa isa, bool single)
 {
     switch (isa) {
 #ifdef SNOW_HAVE_X86_KERNELS
-    case SNOW_ISA_AVX2: return &snow_reiter_kernel_avx2;
-    case SNOW_ISA_AVX512: return &snow_reiter_kernel_avx512;
+    case SNOW_ISA_AVX2: return single ? &snow_reiter_single_avx2 : &snow_reiter_double_avx2;
+    case SNOW_ISA_AVX512: return single ? &snow_reiter_single_avx512 : &snow_reiter_double_avx512;
 #else
     case SNOW_ISA_AVX2:
     case SNOW_ISA_AVX512:
@@ -15,14 +15,14 @@ static const reiter_kernel *choose_kernel(snow_isa isa)
     case SNOW_ISA_AUTO:
     case SNOW_ISA_BASELINE: break;
     }
-    return &snow_reiter_kernel_baseline;
+    return single ? &snow_reiter_single_baseline : &snow_reiter_double_baseline;
 }
 
 static snow_status create(snow_grid *grid)
 {
     snow_status status = snow_rows_create(grid);
     if (status == SNOW_OK)
-        rows_of(grid)->kernel = choose_kernel(grid->options.isa);
+        rows_of(grid)->kernel = choose_kernel(grid->options.isa, rows_of(grid)->single);
     return status;
 }
 
@@ -55,11 +55,10 @@ static reiter_cell get(const snow_grid *grid, int32_t q, int32_t r)
         return (reiter_cell){.value = cells->fixed};
     size_t i = number(grid, q, r);
     cell_state state = (cell_state)cells->state[i];
-    double vapour = cells->vapour[cells->now][i];
     if (state == CELL_VAPOUR || state == CELL_OTHER)
-        return (reiter_cell){.value = vapour};
-    receptive_cell unlisted = {(uint32_t)i, cells->place[i], vapour};
-    const receptive_cell *cell = cells->lists ? &cells->listed[cells->place[i]] : &unlisted;
+        return (reiter_cell){.value = rows_vapour(cells, i)};
+    receptive_cell loose = {(uint32_t)i, cells->place[i], rows_vapour(cells, i)};
+    const receptive_cell *cell = cells->loose ? &loose : &cells->listed[cells->place[i]];
     return (reiter_cell){
         .value = cell->collected,
         .additions = (uint32_t)grid->census.steps - cell->since,
@@ -68,18 +67,29 @@ static reiter_cell get(const snow_grid *grid, int32_t q, int32_t r)
     };
 }
 
+/* From here on, until they are settled, cells hold what they are given, unrounded. */
+static void loosen(rows *cells)
+{
+    if (cells->loose)
+        return;
+    for (size_t i = 0; i < cells->count && cells->single; i++)
+        rows_put_vapour(cells, i, rows_vapour(cells, i));
+    cells->loose = true;
+    snow_rows_unlist(cells);
+}
+
 static void put(snow_grid *grid, int32_t q, int32_t r, const reiter_cell *cell)
 {
     rows *cells = rows_of(grid);
+    loosen(cells);
     if (is_fixed_and_folded(grid, q, r)) {
         cells->fixed = cell->value;
         return;
     }
-    snow_rows_unlist(cells);
     size_t i = number(grid, q, r);
     if (cells->state[i] != CELL_OTHER)
         cells->state[i] = cell->frozen ? CELL_FROZEN : cell->receptive ? CELL_FRONT : CELL_VAPOUR;
-    cells->vapour[cells->now][i] = cell->value;
+    rows_put_vapour(cells, i, cell->value);
     if (cell->frozen || cell->receptive) /* elsewhere the memory need not even be touched */
         cells->place[i] = (uint32_t)grid->census.steps - cell->additions;
 }
@@ -104,9 +114,9 @@ static void settle_state(const snow_grid *grid, int32_t q, int32_t r)
         return;
     bool was_front = cells->state[i] == CELL_FRONT;
     bool is_front = is_by_ice(grid, q, r);
+    cells->state[i] = is_front ? CELL_FRONT : CELL_VAPOUR;
     if (is_front && !was_front)
         cells->place[i] = (uint32_t)grid->census.steps;
-    cells->state[i] = is_front ? CELL_FRONT : CELL_VAPOUR;
 }
 
 /* Padding that is never read may hold anything, so all that is not of the part is fixed. */
@@ -115,9 +125,9 @@ static double settled_vapour(const snow_grid *grid, size_t i)
     const reiter *model = reiter_of(grid);
     const rows *cells = rows_of(grid);
     switch (cells->state[i]) {
-    case CELL_VAPOUR: return reiter_settled(model, cells->vapour[cells->now][i]);
+    case CELL_VAPOUR: return reiter_settled(model, rows_vapour(cells, i));
     case CELL_OTHER:
-        return reiter_settled(model, model->group == SNOW_GROUP_TRIVIAL ? cells->vapour[cells->now][i] : cells->fixed);
+        return reiter_settled(model, model->group == SNOW_GROUP_TRIVIAL ? rows_vapour(cells, i) : cells->fixed);
     default: return 0;
     }
 }
@@ -125,47 +135,66 @@ static double settled_vapour(const snow_grid *grid, size_t i)
 static void settle(snow_grid *grid)
 {
     rows *cells = rows_of(grid);
-    snow_rows_unlist(cells);
+    loosen(cells);
     for (snow_walk walk = snow_walk_over(&cells->part, NULL); snow_walk_next(&walk);)
         settle_state(grid, walk.cell.q, walk.cell.r);
     snow_rows_list(grid);
     cells->fixed = reiter_settled(reiter_of(grid), cells->fixed);
-    for (size_t i = 0; i < cells->count; i++) {
-        double vapour = settled_vapour(grid, i);
-        cells->vapour[0][i] = vapour;
-        cells->vapour[1][i] = vapour;
-    }
+    cells->quantum = reiter_quantum(reiter_of(grid));
+    for (size_t i = 0; i < cells->count; i++)
+        rows_settle_vapour(cells, i, settled_vapour(grid, i));
+    cells->loose = false;
     snow_rows_copy_ghosts(cells, cells->vapour[0]);
     snow_rows_copy_ghosts(cells, cells->vapour[1]);
     snow_rows_wake_all(cells);
 }
 
-static double *next_of(const rows *cells)
+static void *next_of(const rows *cells)
 {
     return cells->vapour[1 - cells->now];
+}
+
+/* In the units of the vapour. */
+static double stored(const rows *cells, double value)
+{
+    return cells->single ? value / cells->quantum : value;
 }
 
 /* Whether the step that is being taken looks at what flows. */
 static bool looks(const snow_grid *grid)
 {
-    return grid->census.steps % ROWS_LOOK_STEPS == 0;
+    return grid->census.steps % ROWS_LOOK_STEPS == ROWS_LOOK_STEPS - 1;
 }
 
-static void diffuse(const snow_grid *grid, row_block *block)
+reiter_flow snow_rows_flow(const snow_grid *grid, int now)
 {
     const reiter *model = reiter_of(grid);
     const rows *cells = rows_of(grid);
-    const reiter_segment *segments = cells->segment + block->first_segment;
-    reiter_flow flow = {
-        .vapour = cells->vapour[cells->now],
-        .next = next_of(cells),
-        .weight = model->params.diffusion / 12,
+    return (reiter_flow){
+        .vapour = cells->vapour[now],
+        .next = cells->vapour[1 - now],
+        .weight = cells->single ? reiter_single_weight(model) : model->params.diffusion / 12,
         .rounder = reiter_rounder(model),
+        .tolerance = stored(cells, model->params.tolerance),
     };
+}
+
+static void diffuse(const snow_grid *grid, const row_block *block)
+{
+    const rows *cells = rows_of(grid);
+    reiter_flow flow = snow_rows_flow(grid, cells->now);
+    const reiter_segment *segments = cells->segment + block->first_segment;
     if (looks(grid))
         cells->kernel->diffuse_and_look(&flow, segments, block->segments, cells->flowing);
     else
         cells->kernel->diffuse(&flow, segments, block->segments);
+}
+
+/* Whether any cell that was computed is beyond ±limit. */
+static bool exceeds(const rows *cells, const row_block *block, double limit)
+{
+    const reiter_segment *segments = cells->segment + block->first_segment;
+    return cells->kernel->exceeds(next_of(cells), segments, block->segments, stored(cells, limit));
 }
 
 /* Where nothing can go wrong, a block is computed in one go. */
@@ -182,11 +211,10 @@ static void diffuse_and_watch(void *argument, size_t index)
     const snow_grid *grid = argument;
     rows *cells = rows_of(grid);
     row_block *block = &cells->block[index];
-    const reiter_segment *segments = cells->segment + block->first_segment;
-    const double highest_vapour = reiter_threshold() - 0x1p-53;
+    const double highest_vapour = reiter_threshold(reiter_of(grid)) - 0x1p-53;
     diffuse(grid, block);
-    block->unstable = cells->kernel->exceeds(next_of(cells), segments, block->segments, reiter_of(grid)->bound);
-    block->overshoots = cells->kernel->exceeds(next_of(cells), segments, block->segments, highest_vapour);
+    block->unstable = exceeds(cells, block, reiter_of(grid)->bound);
+    block->overshoots = exceeds(cells, block, highest_vapour);
 }
 
 static void collect_only(void *argument, size_t index)
@@ -198,36 +226,51 @@ static void collect_only(void *argument, size_t index)
         snow_rows_overshoot(grid, &cells->block[index], next_of(cells));
 }
 
+/* Our own threads only where a step takes longer than it takes them to meet. */
+static void for_blocks(snow_grid *grid, snow_task task)
+{
+    enum { LEAST_CHUNKS = 2048 }; /* some 30 µs */
+    const rows *cells = rows_of(grid);
+    if (grid->options.parallel_for != NULL || cells->listed_chunks >= LEAST_CHUNKS) {
+        snow_grid_for(grid, cells->blocks, task, grid);
+        return;
+    }
+    for (size_t i = 0; i < cells->blocks; i++)
+        task(grid, i);
+}
+
 /* Where the field may grow without bound, that is known before anything is changed. */
 static snow_status diffuse_and_collect(snow_grid *grid)
 {
     const rows *cells = rows_of(grid);
     if (!reiter_overshoots(reiter_of(grid))) {
-        snow_grid_for(grid, cells->blocks, step_block, grid);
+        for_blocks(grid, step_block);
         return SNOW_OK;
     }
-    snow_grid_for(grid, cells->blocks, diffuse_and_watch, grid);
+    for_blocks(grid, diffuse_and_watch);
     for (size_t i = 0; i < cells->blocks; i++)
         if (cells->block[i].unstable)
             return SNOW_ERROR_UNSTABLE;
-    snow_grid_for(grid, cells->blocks, collect_only, grid);
+    for_blocks(grid, collect_only);
     return SNOW_OK;
 }
 
-static bool is_still(const snow_grid *grid, bool froze)
+bool snow_rows_is_still(const snow_grid *grid, bool froze)
 {
     const rows *cells = rows_of(grid);
     for (size_t i = 0; i < cells->blocks; i++)
         if (cells->block[i].collected)
             return false;
     return !froze && !snow_rows_front_gains(grid) &&
-           memcmp(cells->vapour[0], cells->vapour[1], cells->count * sizeof(double)) == 0;
+           memcmp(cells->vapour[0], cells->vapour[1], cells->count * rows_vapour_size(cells)) == 0;
 }
 
 static snow_status step(snow_grid *grid)
 {
     rows *cells = rows_of(grid);
     bool looking = looks(grid);
+    if (rows_looks_at_all(grid))
+        snow_rows_wake_all(cells);
     if (cells->stale)
         snow_rows_list_segments(cells);
     if (looking)
@@ -243,7 +286,7 @@ static snow_status step(snow_grid *grid)
         snow_rows_choose_active(grid);
     cells->now = 1 - cells->now;
     if (snow_census_looks(census->steps))
-        census->still = is_still(grid, froze);
+        census->still = snow_rows_is_still(grid, froze);
     return SNOW_OK;
 }
 
@@ -254,6 +297,8 @@ const reiter_engine snow_reiter_rows = {
     .numbers = numbers,
     .number = number,
     .step = step,
+    .pass_steps = snow_rows_pass_steps,
+    .pass = snow_rows_pass,
     .get = get,
     .put = put,
     .settle = settle,

@@ -4,7 +4,11 @@
    steps more. Every ROWS_LOOK_STEPS steps the kernel looks in which chunks
    anything flows; until the next look only those are computed and the ones
    within reach. Ice far inside, dry pockets between the branches and the
-   untouched field outside drop out, and come back by themselves. */
+   untouched field outside drop out, and come back by themselves.
+
+   With a tolerance, flows up to it count as none. Small flows can add up unseen
+   where nothing is computed, so that every ROWS_FULL_LOOK_STEPS steps the kernel
+   looks at everything. */
 #include "reiter/rows.h"
 
 #include <string.h>
@@ -32,6 +36,7 @@ static void wake_around(rows *cells, int32_t band, int32_t chunk)
             if (!has_bit(valid, at) || has_bit(active, at))
                 continue;
             rows_set_bit(active, at);
+            cells->band[near + 1].stale = true;
             cells->stale = true;
         }
     }
@@ -66,7 +71,21 @@ static uint64_t word_at(map_band band, int32_t word)
     return i >= 0 && i < band.words ? band.word[i] : 0;
 }
 
-static void gather_bands(rows *cells, int32_t band)
+/* What stands still from now on must be the same in both steps. */
+static void still_chunks(const rows *cells, int32_t band, int32_t first_chunk, uint64_t bits)
+{
+    size_t size = rows_vapour_size(cells);
+    for (; bits != 0; bits &= bits - 1) {
+        int32_t q = (first_chunk + __builtin_ctzll(bits)) * REITER_CHUNK;
+        for (int32_t row = 0; row < REITER_BAND; row++) {
+            size_t at = rows_number(cells, q, cells->part.top + band * REITER_BAND + row) * size;
+            memcpy((char *)cells->vapour[cells->now] + at, (char *)cells->vapour[1 - cells->now] + at,
+                   REITER_CHUNK * size);
+        }
+    }
+}
+
+static void gather_bands(rows *cells, int32_t band, bool tolerant)
 {
     map_band active = rows_map(cells, cells->active, band);
     map_band valid = rows_map(cells, cells->valid, band);
@@ -77,8 +96,11 @@ static void gather_bands(rows *cells, int32_t band)
         uint64_t any = 0;
         for (int32_t near = first; near < end; near++)
             any |= word_at(rows_map(cells, cells->flowing, near), active.first_word + i);
-        cells->stale = cells->stale || active.word[i] != (any & valid.word[i]);
-        active.word[i] = any & valid.word[i];
+        uint64_t chosen = any & valid.word[i];
+        if (tolerant)
+            still_chunks(cells, band, (active.first_word + i) * 64, active.word[i] & ~chosen);
+        cells->stale = cells->stale || active.word[i] != chosen;
+        active.word[i] = chosen;
     }
 }
 
@@ -93,7 +115,7 @@ void snow_rows_choose_active(const snow_grid *grid)
     for (int32_t band = 0; band < cells->bands; band++)
         spread_sideways(rows_map(cells, cells->flowing, band));
     for (int32_t band = 0; band < cells->bands; band++)
-        gather_bands(cells, band);
+        gather_bands(cells, band, reiter_of(grid)->params.tolerance > 0);
 }
 
 /* The cells of a row that lie in the chunk from column q on. */
@@ -133,10 +155,12 @@ static bool is_full(const reiter_segment *segment)
 }
 
 /* Full chunks side by side make one segment. */
-static size_t list_band(const rows *cells, int32_t band, reiter_segment *room)
+static uint32_t list_band(const rows *cells, int32_t band, size_t first_segment)
 {
+    stored_band *stored = &cells->band[band + 1];
+    reiter_segment *room = cells->segment + first_segment;
     map_band active = rows_map(cells, cells->active, band);
-    size_t listed = 0;
+    uint32_t listed = 0;
     int32_t joins = INT32_MIN; /* the chunk that would continue the last segment */
     for (int32_t i = 0; i < active.words; i++) {
         for (uint64_t bits = active.word[i]; bits != 0; bits &= bits - 1) {
@@ -150,17 +174,43 @@ static size_t list_band(const rows *cells, int32_t band, reiter_segment *room)
             joins = full ? chunk + 1 : INT32_MIN;
         }
     }
+    stored->first_segment = first_segment;
+    stored->segments = listed;
+    stored->stale = false;
     return listed;
+}
+
+static size_t count_chunks(const reiter_segment *segments, size_t count)
+{
+    size_t chunks = 0;
+    for (size_t i = 0; i < count; i++)
+        chunks += segments[i].chunks;
+    return chunks;
 }
 
 void snow_rows_list_segments(rows *cells)
 {
+    size_t listed = 0;
     for (size_t b = 0; b < cells->blocks; b++) {
         row_block *block = &cells->block[b];
-        reiter_segment *room = cells->segment + block->first_segment;
-        block->segments = 0;
+        block->first_segment = listed;
         for (int32_t band = block->first_band; band < block->end_band; band++)
-            block->segments += list_band(cells, band, room + block->segments);
+            listed += list_band(cells, band, listed);
+        block->segments = listed - block->first_segment;
     }
+    cells->listed_chunks = count_chunks(cells->segment, listed);
     cells->stale = false;
+}
+
+/* Behind the others while there is room; then all are listed again. */
+void snow_rows_list_band(rows *cells, int32_t band)
+{
+    row_block *block = &cells->block[0];
+    map_band valid = rows_map(cells, cells->valid, band);
+    if (block->segments + (size_t)valid.words * 64 > cells->segment_room) {
+        snow_rows_list_segments(cells);
+        return;
+    }
+    block->segments += list_band(cells, band, block->segments);
+    cells->stale = true;
 }

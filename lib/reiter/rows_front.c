@@ -1,6 +1,6 @@
 /* The front of the ROWS engine: the receptive cells that are not frozen yet,
    and, because the fixed cells feed it for ever, ice at the very rim. */
-#include "reiter/rows.h"
+#include "reiter/rows_vapour.h"
 
 static void put_into_list(rows *cells, size_t place, receptive_cell cell)
 {
@@ -26,49 +26,45 @@ static void move_to_ice(rows *cells, row_block *block, size_t place)
 
 /* The vapour of a receptive cell counts as zero, so what the kernel computed
    for it is just what has diffused into it. */
-static inline void collect(const snow_grid *grid, row_block *block, double *restrict next, const double *addition_at)
+static inline void collect(const snow_grid *grid, row_block *block, void *next, bool single, const double *addition_at)
 {
     rows *cells = rows_of(grid);
     receptive_cell *listed = cells->listed;
     uint32_t step = (uint32_t)grid->census.steps + 1;
     const double addition = reiter_of(grid)->params.addition;
-    const double threshold = reiter_threshold();
+    const double threshold = reiter_threshold(reiter_of(grid));
+    const double quantum = cells->quantum;
     bool collected = false;
     block->fresh = 0;
     for (size_t place = block->first; place < block->first + block->front;) {
         receptive_cell *cell = &listed[place];
         uint32_t number = cell->number;
-        double inflow = next[number];
-        next[number] = 0;
-        cell->collected += inflow;
+        double inflow = rows_take_from(next, number, single, quantum);
         double own = addition_at != NULL ? addition_at[number] : addition;
-        double missing = threshold - (cell->collected + own * (step - cell->since));
-        if (missing > 0) {
-            collected |= inflow * REITER_STILL_STEPS >= missing;
-            place++;
-        } else if (cells->state[number] == CELL_FED) {
-            place++;
-        } else {
+        if (rows_collect_inflow(cell, inflow, own, step, threshold, &collected) && cells->state[number] != CELL_FED)
             move_to_ice(cells, block, place);
-        }
+        else
+            place++;
     }
     block->collected = collected;
 }
 
-void snow_rows_collect(const snow_grid *grid, row_block *block, double *next)
+void snow_rows_collect(const snow_grid *grid, row_block *block, void *next)
 {
     const double *addition_at = reiter_of(grid)->addition_at;
-    if (addition_at == NULL)
-        collect(grid, block, next, NULL);
+    if (rows_of(grid)->single)
+        collect(grid, block, next, true, addition_at);
+    else if (addition_at == NULL)
+        collect(grid, block, next, false, NULL);
     else
-        collect(grid, block, next, addition_at);
+        collect(grid, block, next, false, addition_at);
 }
 
-void snow_rows_overshoot(const snow_grid *grid, row_block *block, const double *next)
+void snow_rows_overshoot(const snow_grid *grid, row_block *block, const void *next)
 {
     rows *cells = rows_of(grid);
     for (size_t i = block->first; i < block->end; i++) {
-        if (cells->state[i] == CELL_VAPOUR && next[i] >= reiter_threshold()) {
+        if (cells->state[i] == CELL_VAPOUR && rows_value_in(cells, next, i) >= reiter_threshold(reiter_of(grid))) {
             add_to_ice(cells, block, (receptive_cell){.number = (uint32_t)i});
             block->fresh++;
         }
@@ -90,7 +86,7 @@ static int32_t band_of(const rows *cells, const row_block *block, size_t i)
     return first;
 }
 
-static snow_cell locate(const rows *cells, const row_block *block, size_t i)
+snow_cell snow_rows_locate(const rows *cells, const row_block *block, size_t i)
 {
     int32_t band = band_of(cells, block, i);
     const stored_band *stored = &cells->band[band + 1];
@@ -114,17 +110,17 @@ static void add_to_front(rows *cells, receptive_cell cell)
 }
 
 /* What a cell held as vapour it keeps; the place is zero from now on. */
-static receptive_cell take_vapour(const snow_grid *grid, double *next, snow_cell at, bool looking)
+static receptive_cell take_vapour(const snow_grid *grid, void *next, snow_cell at, bool looking)
 {
-    size_t i = rows_number(rows_of(grid), at.q, at.r);
-    receptive_cell cell = {(uint32_t)i, (uint32_t)grid->census.steps, next[i]};
-    if (next[i] != 0)
+    const rows *cells = rows_of(grid);
+    size_t i = rows_number(cells, at.q, at.r);
+    double vapour = rows_take_from(next, i, cells->single, cells->quantum);
+    if (vapour != 0)
         snow_rows_wake(grid, at.q, at.r, looking);
-    next[i] = 0;
-    return cell;
+    return (receptive_cell){(uint32_t)i, (uint32_t)grid->census.steps, vapour};
 }
 
-static void join_front(snow_grid *grid, double *next, int32_t q, int32_t r, bool looking)
+static void join_front(snow_grid *grid, void *next, int32_t q, int32_t r, bool looking)
 {
     rows *cells = rows_of(grid);
     if (!snow_domain_has(&grid->domain, q, r))
@@ -137,7 +133,7 @@ static void join_front(snow_grid *grid, double *next, int32_t q, int32_t r, bool
     add_to_front(cells, take_vapour(grid, next, at, looking));
 }
 
-static void freeze_cell(snow_grid *grid, double *next, receptive_cell *fresh, snow_cell at, bool looking)
+static void freeze_cell(snow_grid *grid, void *next, receptive_cell *fresh, snow_cell at, bool looking)
 {
     rows *cells = rows_of(grid);
     if (cells->state[fresh->number] == CELL_VAPOUR)
@@ -146,7 +142,7 @@ static void freeze_cell(snow_grid *grid, double *next, receptive_cell *fresh, sn
     snow_reiter_freeze(grid, at.q, at.r);
 }
 
-static void extend_front(snow_grid *grid, double *next, snow_cell at, bool looking)
+static void extend_front(snow_grid *grid, void *next, snow_cell at, bool looking)
 {
     join_front(grid, next, at.q - 1, at.r, looking);
     join_front(grid, next, at.q + 1, at.r, looking);
@@ -170,7 +166,7 @@ static void feed_if_at_rim(const snow_grid *grid, row_block *block, size_t place
 }
 
 /* All cells freeze before any front grows: a cell that freezes never joins the front. */
-bool snow_rows_freeze(snow_grid *grid, double *next, bool looking)
+bool snow_rows_freeze(snow_grid *grid, void *next, bool looking)
 {
     rows *cells = rows_of(grid);
     bool any = false;
@@ -179,18 +175,36 @@ bool snow_rows_freeze(snow_grid *grid, double *next, bool looking)
         receptive_cell *fresh = cells->listed + block->end - block->ice;
         any = any || block->fresh > 0;
         for (size_t i = 0; i < block->fresh; i++)
-            freeze_cell(grid, next, &fresh[i], locate(cells, block, fresh[i].number), looking);
+            freeze_cell(grid, next, &fresh[i], snow_rows_locate(cells, block, fresh[i].number), looking);
     }
     for (size_t b = 0; b < cells->blocks; b++) {
         row_block *block = &cells->block[b];
         size_t first = block->end - block->ice;
         for (size_t place = first; place < first + block->fresh; place++) {
-            snow_cell at = locate(cells, block, cells->listed[place].number);
+            snow_cell at = snow_rows_locate(cells, block, cells->listed[place].number);
             extend_front(grid, next, at, looking);
             feed_if_at_rim(grid, block, place, at);
         }
     }
     return any;
+}
+
+void snow_rows_freeze_cell(snow_grid *grid, uint32_t number, snow_cell at)
+{
+    rows *cells = rows_of(grid);
+    bool fed = snow_rows_touches_fixed(grid, at.q, at.r);
+    cells->state[number] = fed ? CELL_FED : CELL_FROZEN;
+    if (!fed)
+        move_to_ice(cells, block_of(cells, number), cells->place[number]);
+    snow_reiter_freeze(grid, at.q, at.r);
+}
+
+void snow_rows_join(const snow_grid *grid, void *next, snow_cell at, bool looking)
+{
+    rows *cells = rows_of(grid);
+    receptive_cell cell = take_vapour(grid, next, at, looking);
+    cells->state[cell.number] = CELL_FRONT;
+    add_to_front(cells, cell);
 }
 
 bool snow_rows_front_gains(const snow_grid *grid)
@@ -213,7 +227,7 @@ static void list_settled(const snow_grid *grid, snow_cell at)
     uint32_t number = (uint32_t)rows_number(cells, at.q, at.r);
     if (cells->state[number] == CELL_VAPOUR)
         return;
-    receptive_cell cell = {number, cells->place[number], cells->vapour[cells->now][number]};
+    receptive_cell cell = {number, cells->place[number], rows_vapour(cells, number)};
     if (cells->state[number] == CELL_FROZEN && snow_rows_touches_fixed(grid, at.q, at.r))
         cells->state[number] = CELL_FED;
     if (cells->state[number] == CELL_FROZEN)
@@ -227,14 +241,13 @@ void snow_rows_list(snow_grid *grid)
     rows *cells = rows_of(grid);
     for (snow_walk walk = snow_walk_over(&cells->part, NULL); snow_walk_next(&walk);)
         list_settled(grid, walk.cell);
-    cells->lists = true;
 }
 
 static void unlist(rows *cells, size_t first, size_t count)
 {
     for (size_t place = first; place < first + count; place++) {
         const receptive_cell *cell = &cells->listed[place];
-        cells->vapour[cells->now][cell->number] = cell->collected;
+        rows_put_vapour(cells, cell->number, cell->collected);
         cells->place[cell->number] = cell->since;
         if (cells->state[cell->number] == CELL_FED)
             cells->state[cell->number] = CELL_FROZEN;
@@ -243,7 +256,7 @@ static void unlist(rows *cells, size_t first, size_t count)
 
 void snow_rows_unlist(rows *cells)
 {
-    for (size_t b = 0; b < cells->blocks && cells->lists; b++) {
+    for (size_t b = 0; b < cells->blocks; b++) {
         row_block *block = &cells->block[b];
         unlist(cells, block->first, block->front);
         unlist(cells, block->end - block->ice, block->ice);
@@ -251,5 +264,4 @@ void snow_rows_unlist(rows *cells)
         block->ice = 0;
         block->fresh = 0;
     }
-    cells->lists = false;
 }

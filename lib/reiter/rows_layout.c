@@ -1,4 +1,5 @@
 /* Where the cells of the ROWS engine are stored. */
+#include "base/hexagon.h"
 #include "reiter/rows.h"
 
 #include <stdlib.h>
@@ -88,11 +89,24 @@ static snow_status place_bands(rows *cells, snow_heap *heap)
     return count < UINT32_MAX ? SNOW_OK : SNOW_ERROR_TOO_LARGE;
 }
 
+/* The two arrays lie half a page apart, less whole pages: where they lie alike, a
+   processor takes what it loads from one for what it has just stored into the
+   other, and waits. */
+static bool place_vapour(rows *cells, snow_heap *heap)
+{
+    enum { PAGE = 4096 };
+    size_t size = rows_vapour_size(cells);
+    size_t page = PAGE / size;
+    size_t apart = cells->count / page * page + page + page / 2;
+    cells->vapour[0] = snow_heap_get(heap, apart + cells->count, size);
+    cells->vapour[1] = cells->vapour[0] != NULL ? (char *)cells->vapour[0] + apart * size : NULL;
+    return cells->vapour[0] != NULL;
+}
+
 static snow_status place_cells(rows *cells, snow_heap *heap)
 {
     size_t count = cells->count;
-    bool complete = (cells->vapour[0] = snow_heap_get(heap, count, sizeof(double))) != NULL &&
-                    (cells->vapour[1] = snow_heap_get(heap, count, sizeof(double))) != NULL &&
+    bool complete = place_vapour(cells, heap) &&
                     (cells->state = snow_heap_get_raw(heap, count, sizeof *cells->state)) != NULL &&
                     (cells->place = snow_heap_get_raw(heap, count, sizeof *cells->place)) != NULL &&
                     (cells->listed = snow_heap_get_raw(heap, count, sizeof *cells->listed)) != NULL;
@@ -112,31 +126,61 @@ static bool is_ghost(const snow_grid *grid, int64_t q, int64_t r)
     return snow_domain_has(&grid->domain, q, r) && !snow_domain_has(&rows_of(grid)->part, q, r);
 }
 
-/* Visits each ghost once or several times; counts them, and notes them where there is room. */
+typedef struct ghost_list {
+    ghost_cell *room; /* NULL: only counts */
+    size_t count;
+} ghost_list;
+
+static void note_ghosts(const snow_grid *grid, int32_t first, int32_t end, int32_t r, ghost_list *ghosts)
+{
+    rows *cells = rows_of(grid);
+    for (int32_t q = first; q < end; q++) {
+        if (!is_ghost(grid, q, r))
+            continue;
+        if (ghosts->room != NULL) {
+            snow_cell from = snow_group_representative(reiter_of(grid)->group, q, r);
+            ghosts->room[ghosts->count] =
+                (ghost_cell){(uint32_t)rows_number(cells, q, r), (uint32_t)rows_number(cells, from.q, from.r),
+                             rows_chunk_floor(from.q) / REITER_CHUNK};
+            cells->ghosts_are_near = cells->ghosts_are_near && snow_hexagon_distance(from.q - q, from.r - r) <= 2;
+        }
+        ghosts->count++;
+    }
+}
+
+/* Neighbours of the cells of a row, in it or in one beside it, that are not of the part. */
+static void note_ghosts_by_row(const snow_grid *grid, int32_t row, int32_t beside, ghost_list *ghosts)
+{
+    const snow_domain *part = &rows_of(grid)->part;
+    int32_t r = part->top + row + beside;
+    int32_t first = part->run[row].first - (beside >= 0 ? 1 : 0);
+    int32_t end = part->run[row].end + (beside <= 0 ? 1 : 0);
+    snow_run_of_cells own = snow_domain_row(part, r);
+    if (part->run[row].first >= part->run[row].end)
+        return;
+    if (own.first >= own.end) {
+        note_ghosts(grid, first, end, r, ghosts);
+        return;
+    }
+    note_ghosts(grid, first, end < own.first ? end : own.first, r, ghosts);
+    note_ghosts(grid, first > own.end ? first : own.end, end, r, ghosts);
+}
+
+/* Finds each ghost once or several times. */
 static size_t find_ghosts(const snow_grid *grid, ghost_cell *room)
 {
-    const rows *cells = rows_of(grid);
-    const snow_domain *part = &cells->part;
-    size_t ghosts = 0;
-    for (int32_t row = 0; row < part->rows; row++) {
-        const snow_run_of_cells *run = &part->run[row];
-        int32_t r = part->top + row;
-        for (int32_t q = run->first; q < run->end; q++) {
-            for (int which = 0; which < 6; which++) {
-                int32_t to_q = q + neighbour_q[which];
-                int32_t to_r = r + neighbour_r[which];
-                if (!is_ghost(grid, to_q, to_r))
-                    continue;
-                if (room != NULL) {
-                    snow_cell from = snow_group_representative(reiter_of(grid)->group, to_q, to_r);
-                    room[ghosts] = (ghost_cell){(uint32_t)rows_number(cells, to_q, to_r),
-                                                (uint32_t)rows_number(cells, from.q, from.r)};
-                }
-                ghosts++;
-            }
-        }
-    }
-    return ghosts;
+    ghost_list ghosts = {room, 0};
+    for (int32_t row = 0; row < rows_of(grid)->part.rows; row++)
+        for (int32_t beside = -1; beside <= 1; beside++)
+            note_ghosts_by_row(grid, row, beside, &ghosts);
+    return ghosts.count;
+}
+
+static int compare_origins(const void *a, const void *b)
+{
+    uint32_t from_a = ((const ghost_cell *)a)->from;
+    uint32_t from_b = ((const ghost_cell *)b)->from;
+    return (from_a > from_b) - (from_a < from_b);
 }
 
 static int compare_ghosts(const void *a, const void *b)
@@ -146,9 +190,25 @@ static int compare_ghosts(const void *a, const void *b)
     return (to_a > to_b) - (to_a < to_b);
 }
 
+static void sort_ghosts(rows *cells, size_t found)
+{
+    qsort(cells->ghost, found, sizeof *cells->ghost, compare_ghosts);
+    for (size_t i = 0; i < found; i++)
+        if (i == 0 || cells->ghost[i].to != cells->ghost[i - 1].to)
+            cells->ghost[cells->ghosts++] = cells->ghost[i];
+    qsort(cells->ghost, cells->ghosts, sizeof *cells->ghost, compare_origins);
+    size_t ghost = 0;
+    for (int32_t i = 0; i < cells->bands + 3; i++) {
+        while (ghost < cells->ghosts && cells->ghost[ghost].from < cells->band[i].base)
+            ghost++;
+        cells->band[i].first_ghost = ghost;
+    }
+}
+
 static snow_status place_ghosts(const snow_grid *grid, snow_heap *heap)
 {
     rows *cells = rows_of(grid);
+    cells->ghosts_are_near = true;
     if (reiter_of(grid)->group == SNOW_GROUP_TRIVIAL)
         return SNOW_OK;
     size_t found = find_ghosts(grid, NULL);
@@ -156,10 +216,7 @@ static snow_status place_ghosts(const snow_grid *grid, snow_heap *heap)
     if (cells->ghost == NULL)
         return heap->refusal;
     find_ghosts(grid, cells->ghost);
-    qsort(cells->ghost, found, sizeof *cells->ghost, compare_ghosts);
-    for (size_t i = 0; i < found; i++)
-        if (i == 0 || cells->ghost[i].to != cells->ghost[i - 1].to)
-            cells->ghost[cells->ghosts++] = cells->ghost[i];
+    sort_ghosts(cells, found);
     return SNOW_OK;
 }
 
@@ -187,15 +244,13 @@ static void cut_blocks(rows *cells)
 {
     const snow_domain *part = &cells->part;
     int32_t band = 0;
-    size_t segments = 0;
     for (size_t i = 0; i < cells->blocks; i++) {
         row_block *block = &cells->block[i];
         uint64_t target = (uint64_t)part->cells * (i + 1) / cells->blocks;
         int32_t bands_to_leave = (int32_t)(cells->blocks - 1 - i);
         block->first_band = band;
-        block->first_segment = segments;
         do
-            segments += most_segments(cells, band++);
+            band++;
         while (band < cells->bands - bands_to_leave && part->run[band * REITER_BAND].number < target);
         block->end_band = band;
         block->first = cells->band[block->first_band + 1].base;
@@ -229,9 +284,11 @@ static snow_status place_maps(rows *cells, snow_heap *heap)
         place_in_maps(cells, band);
         segments += most_segments(cells, band);
     }
+    cells->segment_room = segments;
     bool complete = (cells->valid = snow_heap_get(heap, cells->map_words, sizeof(uint64_t))) != NULL &&
                     (cells->active = snow_heap_get(heap, cells->map_words, sizeof(uint64_t))) != NULL &&
                     (cells->flowing = snow_heap_get(heap, cells->map_words, sizeof(uint64_t))) != NULL &&
+                    (cells->visited = snow_heap_get(heap, cells->map_words, sizeof(uint64_t))) != NULL &&
                     (cells->segment = snow_heap_get_raw(heap, segments, sizeof *cells->segment)) != NULL;
     if (!complete)
         return heap->refusal;
@@ -258,6 +315,7 @@ snow_status snow_rows_create(snow_grid *grid)
     if (model->cells == NULL)
         return heap->refusal;
     rows *cells = model->cells;
+    cells->single = reiter_is_single(model);
     snow_status status = place_part(grid);
     if (status == SNOW_OK)
         status = place_cells(cells, heap);
@@ -278,15 +336,15 @@ void snow_rows_destroy(snow_grid *grid)
     snow_heap_put(heap, cells->offset);
     snow_heap_put(heap, cells->band);
     snow_heap_put(heap, cells->vapour[0]);
-    snow_heap_put(heap, cells->vapour[1]);
-    snow_heap_put(heap, cells->place);
     snow_heap_put(heap, cells->state);
+    snow_heap_put(heap, cells->place);
     snow_heap_put(heap, cells->listed);
     snow_heap_put(heap, cells->ghost);
     snow_heap_put(heap, cells->block);
     snow_heap_put(heap, cells->valid);
     snow_heap_put(heap, cells->active);
     snow_heap_put(heap, cells->flowing);
+    snow_heap_put(heap, cells->visited);
     snow_heap_put(heap, cells->segment);
     snow_heap_put(heap, cells);
 }
@@ -299,8 +357,12 @@ bool snow_rows_touches_fixed(const snow_grid *grid, int32_t q, int32_t r)
     return false;
 }
 
-void snow_rows_copy_ghosts(const rows *cells, double *vapour)
+void snow_rows_copy_ghosts(const rows *cells, void *vapour)
 {
-    for (size_t i = 0; i < cells->ghosts; i++)
-        vapour[cells->ghost[i].to] = vapour[cells->ghost[i].from];
+    double *doubles = vapour;
+    int32_t *singles = vapour;
+    for (size_t i = 0; i < cells->ghosts && !cells->single; i++)
+        doubles[cells->ghost[i].to] = doubles[cells->ghost[i].from];
+    for (size_t i = 0; i < cells->ghosts && cells->single; i++)
+        singles[cells->ghost[i].to] = singles[cells->ghost[i].from];
 }

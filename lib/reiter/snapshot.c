@@ -30,6 +30,8 @@ static void save_scene(const snow_grid *grid, snow_sink *sink)
     snow_sink_u32(sink, (uint32_t)params->rim);
     snow_sink_u32(sink, (uint32_t)params->engine);
     snow_sink_u32(sink, (uint32_t)params->symmetry);
+    snow_sink_u32(sink, (uint32_t)params->precision);
+    snow_sink_double(sink, params->tolerance);
     snow_sink_u32(sink, model->group);
     snow_sink_u8(sink, params->record_freeze_steps != 0);
     snow_sink_u8(sink, params->allow_unstable != 0);
@@ -96,6 +98,8 @@ static snow_status load_scene(snow_source *source, saved_scene *scene)
     params->rim = (snow_reiter_rim)snow_source_u32(source);
     params->engine = (snow_reiter_engine)snow_source_u32(source);
     params->symmetry = (snow_reiter_symmetry)snow_source_u32(source);
+    params->precision = (snow_reiter_precision)snow_source_u32(source);
+    params->tolerance = snow_source_double(source);
     scene->group = snow_source_u32(source);
     params->record_freeze_steps = snow_source_u8(source);
     params->allow_unstable = snow_source_u8(source);
@@ -122,7 +126,7 @@ static snow_status load_scene(snow_source *source, saved_scene *scene)
 /* Above α = 2 cells can collect less than nothing, but not without end. */
 static const double greatest_collected = 0x1p20;
 
-static bool is_sound_cell(const saved_scene *scene, const reiter_cell *cell, double addition)
+static bool is_sound_cell(const reiter *model, const saved_scene *scene, const reiter_cell *cell, double addition)
 {
     if (!isfinite(cell->value) || !isfinite(cell->low) || !(addition >= 0 && addition <= 1))
         return false;
@@ -131,7 +135,7 @@ static bool is_sound_cell(const saved_scene *scene, const reiter_cell *cell, dou
     if (cell->frozen)
         return true;
     double greatest = cell->receptive ? greatest_collected : scene->bound;
-    return fabs(cell->value) <= greatest && reiter_value(cell, addition) < reiter_threshold();
+    return fabs(cell->value) <= greatest && reiter_value(cell, addition) < reiter_threshold(model);
 }
 
 static void load_value(const reiter *model, snow_source *source, reiter_cell *cell)
@@ -157,7 +161,7 @@ static snow_status load_cell(snow_grid *grid, snow_source *source, const saved_s
         addition = model->addition_at[number] = snow_source_double(source);
     if (source->truncated)
         return SNOW_ERROR_TRUNCATED;
-    if (kind > KIND_FROZEN || !is_sound_cell(scene, &cell, addition))
+    if (kind > KIND_FROZEN || !is_sound_cell(model, scene, &cell, addition))
         return SNOW_ERROR_DAMAGED;
     model->engine->put(grid, at.q, at.r, &cell);
     return SNOW_OK;
@@ -171,7 +175,7 @@ static snow_status load_fixed(snow_grid *grid, snow_source *source, const saved_
         load_value(model, source, &cell);
         if (source->truncated)
             return SNOW_ERROR_TRUNCATED;
-        if (!is_sound_cell(scene, &cell, 0))
+        if (!is_sound_cell(model, scene, &cell, 0))
             return SNOW_ERROR_DAMAGED;
         model->engine->put(grid, walk.cell.q, walk.cell.r, &cell);
     }

@@ -1,5 +1,5 @@
 /*
- * The four palettes.
+ * The palettes.
  *
  * A ramp of colours is given by a few stops and mixed between them in the cube
  * roots of cone responses. That is the same as mixing linearly in the Oklab
@@ -12,6 +12,7 @@
 #include <snowgrowth/reiter.h>
 
 #include <math.h>
+#include <stdbool.h>
 #include <stddef.h>
 
 /* Red, green, blue as linear light in [0, 1], or the three cone roots. */
@@ -42,6 +43,9 @@ static const ramp ink_ice = {3, {{0.0, 56, 98, 164}, {0.4, 26, 58, 120}, {1.0, 1
 static const ramp age_ground = {2, {{0.0, 10, 9, 16}, {1.0, 10, 9, 16}}};
 static const ramp age_ice = {
     5, {{0.0, 76, 29, 128}, {0.25, 140, 36, 128}, {0.5, 208, 56, 76}, {0.75, 246, 140, 62}, {1.0, 253, 240, 172}}};
+
+static const ramp phase_ice = {
+    5, {{0.0, 250, 244, 236}, {0.25, 242, 152, 96}, {0.5, 124, 44, 116}, {0.75, 66, 128, 196}, {1.0, 250, 244, 236}}};
 
 static double decode(double srgb)
 {
@@ -144,9 +148,14 @@ static void mix_bytes(snow_paint *paint)
     }
 }
 
+static bool shows_age(snow_palette palette)
+{
+    return palette == SNOW_PALETTE_AGE || palette == SNOW_PALETTE_PHASE;
+}
+
 snow_field snow_palette_field(snow_palette palette)
 {
-    return palette == SNOW_PALETTE_AGE ? SNOW_FIELD_FREEZE_STEP : SNOW_FIELD_VALUE;
+    return shows_age(palette) ? SNOW_FIELD_FREEZE_STEP : SNOW_FIELD_VALUE;
 }
 
 void snow_paint_mix(snow_paint *paint, snow_palette palette, double greatest)
@@ -154,9 +163,12 @@ void snow_paint_mix(snow_paint *paint, snow_palette palette, double greatest)
     snow_light *vapour = paint->shade;
     snow_light *ice = paint->shade + SNOW_SHADES;
 
-    paint->first = palette == SNOW_PALETTE_AGE ? 0.0 : 1.0;
-    paint->ice_from = palette == SNOW_PALETTE_AGE ? 0.0 : 1.0 - SNOW_REITER_SLACK;
+    paint->first = shows_age(palette) ? 0.0 : 1.0;
+    paint->ice_from = shows_age(palette) ? 0.0 : 1.0 - SNOW_REITER_SLACK;
+    paint->period = palette == SNOW_PALETTE_PHASE ? 16.0 : 0.0;
     paint->range = greatest > paint->first ? greatest - paint->first : 0.0;
+    if (paint->period > 0.0)
+        paint->range = paint->period;
     mix_bytes(paint);
     switch (palette) {
     case SNOW_PALETTE_PAPER:
@@ -174,6 +186,10 @@ void snow_paint_mix(snow_paint *paint, snow_palette palette, double greatest)
         mix_ramp(vapour, &age_ground);
         mix_ramp(ice, &age_ice);
         break;
+    case SNOW_PALETTE_PHASE:
+        mix_ramp(vapour, &age_ground);
+        mix_ramp(ice, &phase_ice);
+        break;
     }
 }
 
@@ -190,6 +206,8 @@ uint16_t snow_paint_shade(const snow_paint *paint, double number)
         return step_of(number);
     if (paint->range == 0.0)
         return SNOW_SHADES;
+    if (paint->period > 0.0)
+        number = fmod(number, paint->period);
     return (uint16_t)(SNOW_SHADES + step_of((number - paint->first) / paint->range));
 }
 

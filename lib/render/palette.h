@@ -25,6 +25,7 @@ typedef struct snow_paint {
     double ice_from; /* A number from here on is ice. */
     double first;    /* The number at the beginning of the ice ramp. */
     double range;    /* From there to its end; 0 where all ice looks like the first. */
+    double period;   /* Numbers of ice that differ by it look alike; 0: none do. */
     snow_light shade[2 * SNOW_SHADES]; /* The vapour's ramp, then that of the ice. */
     uint32_t byte_from[257];           /* The least light that is shown as each byte, and what none reaches. */
     uint8_t byte_at[4096];             /* The byte of each sixteenth light; no two bytes begin within sixteen. */

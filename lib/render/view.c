@@ -59,13 +59,9 @@ static int within(int32_t number, int32_t least, int32_t greatest)
     return number >= least && number <= greatest;
 }
 
-snow_status snow_view_read(const snow_view *caller, snow_view *view)
+static SNOW_APART snow_status check(const snow_view *view)
 {
-    snow_status status = copy_in(caller, view);
-
-    if (status != SNOW_OK)
-        return status;
-    if (!within((int32_t)view->palette, SNOW_PALETTE_PAPER, SNOW_PALETTE_AGE) ||
+    if (!within((int32_t)view->palette, SNOW_PALETTE_PAPER, SNOW_PALETTE_PHASE) ||
         !within((int32_t)view->pixel, SNOW_PIXEL_GREY, SNOW_PIXEL_RGBA))
         return SNOW_ERROR_ENUM;
     if (!isfinite(view->scale) || !isfinite(view->centre_x) || !isfinite(view->centre_y))
@@ -75,6 +71,19 @@ snow_status snow_view_read(const snow_view *caller, snow_view *view)
         view->scale < LEAST_SCALE || view->scale > GREATEST_SCALE)
         return SNOW_ERROR_RANGE;
     return SNOW_OK;
+}
+
+snow_status snow_view_read(const snow_view *caller, snow_view *view)
+{
+    snow_floating floating;
+    snow_status status = copy_in(caller, view);
+
+    if (status != SNOW_OK)
+        return status;
+    snow_floating_enter(&floating);
+    status = check(view);
+    snow_floating_leave(&floating);
+    return status;
 }
 
 /*

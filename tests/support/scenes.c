@@ -103,6 +103,13 @@ static const recipe recipes[] = {
     {.name = "dendrite-r1000", .what = "large dendrite to the rim",
      .background = 0.4, .addition = 0.001, .diffusion = 1, .radius = 1000, .at_most = -1,
      .steps = 20911, .frozen = 2149513, .digest = UINT64_C(0x3c46e19a84612c0a), .slow = true},
+    {.name = "kernel-huge", .what = "no ice, dense noise, 2 GB of vapour: twenty times most last-level caches",
+     .background = 0.4, .addition = 0.001, .diffusion = 1, .domain = SNOW_REITER_RECTANGLE, .width = 16384,
+     .height = 8192, .seeds = no_seeds, .noise = 0.3, .exactly = 24,
+     .steps = 24, .frozen = 0, .digest = UINT64_C(0x77b238a87fb0aac5), .slow = true},
+    {.name = "plate-r60", .what = "the plate in a smaller disc, for engines that are slow",
+     .background = 0, .addition = 0.01, .diffusion = 1, .radius = 60,
+     .steps = 5800, .frozen = 10267, .digest = UINT64_C(0xf0c59498d9eef35c)},
 };
 
 static void cook(const recipe *from, snow_scene *scene)

@@ -1,0 +1,216 @@
+/* Patterns in run-length encoding, out. */
+#include "packard/rle.h"
+
+#include <string.h>
+
+enum { STAGED = 4096, LINE = 70, TOKEN = 24, CHUNK = 64 /* words of a row that are read at a time */ };
+
+typedef struct rle_writer {
+    snow_writer write; /* NULL: the bytes are only counted */
+    void *context;
+    bool failed;
+    uint64_t total;
+    size_t filled;
+    char staged[STAGED];
+    size_t column;
+    uint64_t ends;  /* of rows that are not written yet */
+    uint64_t blank; /* dead cells that are not written yet */
+    uint64_t alive; /* living ones after them */
+} rle_writer;
+
+static void flush(rle_writer *writer)
+{
+    if (writer->write != NULL && !writer->failed && writer->filled > 0)
+        writer->failed = writer->write(writer->context, writer->staged, writer->filled) != 0;
+    writer->filled = 0;
+}
+
+static void put_text(rle_writer *writer, const char *text)
+{
+    for (; *text != '\0'; text++) {
+        if (writer->filled == STAGED)
+            flush(writer);
+        writer->staged[writer->filled++] = *text;
+        writer->total++;
+    }
+}
+
+/* Writes a number at the end of the text. */
+static char *number_before(char *end, int64_t number)
+{
+    uint64_t magnitude = number < 0 ? 0 - (uint64_t)number : (uint64_t)number;
+    do
+        *--end = (char)('0' + magnitude % 10);
+    while ((magnitude /= 10) > 0);
+    if (number < 0)
+        *--end = '-';
+    return end;
+}
+
+static void put_number(rle_writer *writer, int64_t number)
+{
+    char text[TOKEN] = {0};
+    put_text(writer, number_before(text + TOKEN - 1, number));
+}
+
+/* Lines are kept short, as the format asks. */
+static void put_run(rle_writer *writer, uint64_t count, char what)
+{
+    char text[TOKEN] = {0};
+    text[TOKEN - 2] = what;
+    char *token = count == 1 ? text + TOKEN - 2 : number_before(text + TOKEN - 2, (int64_t)count);
+    size_t length = strlen(token);
+    if (count == 0)
+        return;
+    if (writer->column + length > LINE) {
+        put_text(writer, "\n");
+        writer->column = 0;
+    }
+    put_text(writer, token);
+    writer->column += length;
+}
+
+static void end_run(rle_writer *writer)
+{
+    if (writer->alive == 0)
+        return;
+    put_run(writer, writer->ends, '$');
+    put_run(writer, writer->blank, 'b');
+    put_run(writer, writer->alive, 'o');
+    writer->ends = writer->blank = writer->alive = 0;
+}
+
+static void put_cell(rle_writer *writer, bool alive)
+{
+    if (alive) {
+        writer->alive++;
+        return;
+    }
+    end_run(writer);
+    writer->blank++;
+}
+
+/* `lead` columns of the pattern come before the row's first cell. */
+static void put_row(rle_writer *writer, const packard *model, const packard_region *row, int64_t lead)
+{
+    uint64_t words[CHUNK];
+    writer->blank = (uint64_t)lead;
+    for (int64_t x = 0; x < row->width; x += CHUNK * PACKARD_WORD) {
+        int64_t left = row->width - x;
+        packard_region part = {row->q + x, row->r, left < CHUNK * PACKARD_WORD ? left : CHUNK * PACKARD_WORD, 1};
+        model->engine->copy(model->cells, &part, words);
+        for (int64_t i = 0; i < part.width; i++)
+            put_cell(writer, (words[i / PACKARD_WORD] >> (i % PACKARD_WORD) & 1) != 0);
+    }
+    end_run(writer);
+    writer->blank = 0;
+    writer->ends++;
+}
+
+/* The pattern's box: its least x and y, and its extents. */
+static packard_region box_of(const snow_grid *grid, const packard_axes *axes)
+{
+    const snow_hexagon *hexagon = &grid->census.hexagon;
+    if (snow_hexagon_is_empty(hexagon))
+        return (packard_region){0, 0, 0, 0};
+    int64_t least_x = axes->mirrored ? hexagon->least_q : hexagon->least_s;
+    int64_t greatest_x = axes->mirrored ? hexagon->greatest_q : hexagon->greatest_s;
+    int64_t least_y = packard_y_of(axes, axes->mirrored ? hexagon->greatest_r : hexagon->least_r);
+    int64_t greatest_y = packard_y_of(axes, axes->mirrored ? hexagon->least_r : hexagon->greatest_r);
+    return (packard_region){least_x, least_y, greatest_x - least_x + 1, greatest_y - least_y + 1};
+}
+
+static void put_header(rle_writer *writer, const snow_grid *grid, const packard_region *box)
+{
+    const snow_packard_params *params = &packard_of(grid)->params;
+    char rule[SNOW_PACKARD_RULE_SIZE];
+    snow_packard_rule_text(params->rule, SNOW_PACKARD_BIRTHS, rule, sizeof rule);
+    put_text(writer, "#CXRLE Pos=");
+    put_number(writer, box->q);
+    put_text(writer, ",");
+    put_number(writer, box->r);
+    put_text(writer, " Gen=");
+    put_number(writer, grid->census.steps);
+    put_text(writer, "\nx = ");
+    put_number(writer, box->width);
+    put_text(writer, ", y = ");
+    put_number(writer, box->height);
+    put_text(writer, ", rule = ");
+    put_text(writer, rule);
+    if (params->domain == SNOW_PACKARD_TORUS || params->domain == SNOW_PACKARD_RHOMBUS) {
+        put_text(writer, params->domain == SNOW_PACKARD_TORUS ? ":T" : ":P");
+        put_number(writer, params->width);
+        put_text(writer, ",");
+        put_number(writer, params->height);
+    }
+    put_text(writer, "\n");
+}
+
+static void write_pattern(rle_writer *writer, const snow_grid *grid)
+{
+    const packard *model = packard_of(grid);
+    const packard_axes axes = packard_axes_of(&model->params);
+    const packard_region box = box_of(grid, &axes);
+    const packard_region bounds = snow_packard_bounds(grid);
+    put_header(writer, grid, &box);
+    for (int64_t y = box.r; y < box.r + box.height; y++) {
+        packard_region row = {bounds.q, packard_y_of(&axes, y), bounds.width, 1};
+        int64_t lead = packard_x_of(&axes, row.q, row.r) - box.q;
+        if (lead < 0) { /* cells so far to the left are not frozen */
+            row.q -= lead;
+            row.width += lead;
+            lead = 0;
+        }
+        put_row(writer, model, &row, lead);
+    }
+    put_text(writer, "!\n");
+    flush(writer);
+}
+
+static snow_status check(const snow_grid *grid)
+{
+    snow_status status = packard_check(grid);
+    if (status == SNOW_OK && grid->domain.too_large)
+        status = SNOW_ERROR_TOO_LARGE;
+    return status;
+}
+
+snow_status snow_packard_save_rle_to(const snow_grid *grid, snow_writer write, void *context)
+{
+    snow_status status = check(grid);
+    if (status != SNOW_OK)
+        return status;
+    if (write == NULL)
+        return SNOW_ERROR_NULL;
+    rle_writer writer = {.write = write, .context = context};
+    write_pattern(&writer, grid);
+    return writer.failed ? SNOW_ERROR_WRITE : SNOW_OK;
+}
+
+static int append(void *context, const void *bytes, size_t size)
+{
+    unsigned char **end = context;
+    memcpy(*end, bytes, size);
+    *end += size;
+    return 0;
+}
+
+snow_status snow_packard_save_rle(const snow_grid *grid, void *buffer, size_t capacity, size_t *size)
+{
+    snow_status status = check(grid);
+    if (status != SNOW_OK)
+        return status;
+    if (size == NULL)
+        return SNOW_ERROR_NULL;
+    rle_writer counter = {.write = NULL};
+    write_pattern(&counter, grid);
+    if (counter.total > SIZE_MAX)
+        return SNOW_ERROR_TOO_LARGE;
+    *size = (size_t)counter.total;
+    if (buffer == NULL)
+        return SNOW_OK;
+    if (capacity < *size)
+        return SNOW_ERROR_BUFFER;
+    unsigned char *end = buffer;
+    return snow_packard_save_rle_to(grid, append, &end);
+}
