@@ -135,7 +135,7 @@ static SNOW_APART snow_status check_stop(const snow_stop *stop)
     if (!isfinite(stop->tip_radius) || !isfinite(stop->seconds))
         return SNOW_ERROR_NOT_FINITE;
     if (stop->max_steps < -1 || !snow_is_flag(stop->rim) || !snow_is_flag(stop->still) || stop->tip_radius < 0 ||
-        stop->seconds < 0 || stop->progress_steps < 1)
+        stop->seconds < 0 || stop->progress_steps < 1 || stop->height < 0)
         return SNOW_ERROR_RANGE;
     return SNOW_OK;
 }
