@@ -35,10 +35,14 @@ typedef struct packard_scene {
     unsigned engines; /* those that end in reasonable time */
     int32_t scatter;  /* seeds in a rhombus of that side; 0: one seed */
     int32_t side;
-    int32_t seed_q; /* of the one seed; off the origin the scene cannot be folded */
+    const snow_cell *seeds; /* NULL: the origin */
+    size_t seed_count;
     const char *population; /* where it is known from elsewhere */
     bool slow;              /* only when named */
 } packard_scene;
+
+static const snow_cell aside[] = {{1, 0}};
+static const snow_cell three[] = {{0, 0}, {3, 1}, {-2, 7}};
 
 static const packard_scene scenes[] = {
     {.name = "one-4000", .what = "0100000 from one seed", .rule = "0100000", .steps = 4000,
@@ -49,10 +53,12 @@ static const packard_scene scenes[] = {
      .engines = BY_TILES | QUADTREE},
     {.name = "parity-8000", .what = "the same", .rule = "0101010", .steps = 8000, .engines = BY_TILES | QUADTREE},
     {.name = "parity-16000", .what = "the same", .rule = "0101010", .steps = 16000, .engines = BY_TILES | QUADTREE},
-    {.name = "aside-4000", .what = "0100000 from a seed off the origin: nothing is folded", .rule = "0100000",
-     .steps = 4000, .engines = BY_TILES | QUADTREE, .seed_q = 1},
-    {.name = "aside-8000", .what = "the same", .rule = "0100000", .steps = 8000, .engines = BY_TILES | QUADTREE,
-     .seed_q = 1},
+    {.name = "aside-4000", .what = "0100000 from one seed off the origin", .rule = "0100000", .steps = 4000,
+     .engines = BY_TILES | QUADTREE, .seeds = aside, .seed_count = 1},
+    {.name = "three-4000", .what = "0100000 from three seeds: no symmetry", .rule = "0100000", .steps = 4000,
+     .engines = BY_TILES | QUADTREE, .seeds = three, .seed_count = 3},
+    {.name = "three-8000", .what = "the same", .rule = "0100000", .steps = 8000, .engines = BY_TILES | QUADTREE,
+     .seeds = three, .seed_count = 3},
     {.name = "scatter", .what = "0100000 from 4000 seeds in 4096 x 4096", .rule = "0100000", .steps = 500,
      .engines = BY_TILES | BY_TREES, .scatter = 4000, .side = 4096},
     {.name = "one-2^20", .what = "0100000 from one seed", .rule = "0100000", .steps = INT64_C(1) << 20,
@@ -100,15 +106,12 @@ typedef struct run {
 static snow_status make(const run *wanted, snow_grid **grid)
 {
     const packard_scene *scene = wanted->scene;
-    snow_cell seed = {scene->seed_q, 0};
     snow_packard_params params;
     snow_packard_params_init(&params, sizeof params);
     snow_status status = snow_packard_params_rule(&params, scene->rule);
-    params.seeds = &seed;
-    params.seed_count = 1;
+    params.seeds = scene->seeds;
+    params.seed_count = scene->seed_count;
     if (scene->scatter > 0) {
-        params.seeds = NULL;
-        params.seed_count = 0;
         params.scatter = scene->scatter;
         params.scatter_side = scene->side;
         params.random_seed = 1;
@@ -418,17 +421,12 @@ int main(int argument_count, char **arguments)
         printf("bgolly is not installed: nothing to compare with\n");
         work.engines &= ~(unsigned)(QUICKLIFE | HASHLIFE);
     }
-    FILE *csv = NULL;
-    if (work.csv_path != NULL) {
-        csv = csv_open(work.csv_path, "scene,engine,isa,steps,population,rounds,seconds_min,seconds_median,seconds_max,"
-                                      "ratio,peak_mb", argument_count, arguments, work.date);
-        if (csv == NULL)
-            arguments_fail("%s: %s", work.csv_path, strerror(errno));
-    }
+    FILE *csv = csv_open(work.csv_path, "scene,engine,isa,steps,population,rounds,seconds_min,seconds_median,seconds_max,"
+                         "ratio,peak_mb", argument_count, arguments, work.date);
     bool right = true;
     for (size_t i = 0; i < work.count; i++)
         right = bench_scene(&work, work.chosen[i], csv) && right;
-    if (csv != NULL && !csv_close(csv))
+    if (!csv_close(csv))
         arguments_fail("%s could not be written", work.csv_path);
     return right ? 0 : 1;
 }

@@ -148,10 +148,14 @@ snow_status snow_packard_advance(snow_grid *grid, int64_t most, const snow_stop 
     int64_t same_zones = snow_packard_zones_last(model, step) - (step - 1);
     int64_t steps = safe_steps(grid, lesser(most, same_zones), stop);
     snow_status status = snow_packard_choose(grid, &steps);
+    steps = safe_steps(grid, steps, stop); /* an engine that cannot go back has to look sooner */
     if (status == SNOW_OK)
         status = change_zones(grid);
     if (status != SNOW_OK)
         return status;
+    bool hurries = stop != NULL && stop->seconds > 0;
+    if (hurries && model->engine->keep != NULL) /* in one go it may take steps for hours */
+        steps = lesser(steps, greater(grid->census.steps, 64));
     bool seeks = stop != NULL && stop->frozen > 0 && model->engine->keep != NULL;
     return seeks ? take_until_frozen(grid, steps, stop) : take(grid, steps);
 }

@@ -48,7 +48,7 @@ static snow_status use(snow_grid *grid, const packard_engine *engine)
     if (engine == &snow_packard_tiles && !fits_tiles(grid))
         return SNOW_ERROR_TOO_LARGE;
     model->watched = false;
-    return snow_packard_convert(grid, engine, model->folded);
+    return snow_packard_convert(grid, engine);
 }
 
 /* Cells of a hexagon round the crystal after so many steps more. */
@@ -62,7 +62,7 @@ static double area_after(const snow_grid *grid, int64_t steps)
 static double tile_work(const snow_grid *grid, int64_t steps)
 {
     double area = area_after(grid, steps) - area_after(grid, 0);
-    return area / (packard_of(grid)->folded ? 12 : 1) / grid->options.threads;
+    return area / (packard_of(grid)->fold.possible ? 12 : 1) / grid->options.threads;
 }
 
 static double start_work(const snow_grid *grid)

@@ -274,16 +274,23 @@ static bool is_dear_domain(const snow_source *source, const snow_packard_params 
     return is_dear(source, params->width, params->height);
 }
 
+/* In place of an engine that has no cells yet. */
+static void use_engine(snow_grid *grid, const packard_engine *engine, void *cells)
+{
+    packard *model = packard_of(grid);
+    model->engine->destroy(grid, model->cells);
+    model->engine = engine;
+    model->cells = cells;
+}
+
 static snow_status use_tiles(snow_grid *grid)
 {
     packard *model = packard_of(grid);
     void *cells;
-    snow_status status = snow_packard_tiles.create(grid, false, &cells);
+    snow_status status = snow_packard_tiles.create(grid, &model->fold, &cells);
     if (status != SNOW_OK)
         return status;
-    model->engine->destroy(grid, model->cells);
-    model->engine = &snow_packard_tiles;
-    model->cells = cells;
+    use_engine(grid, &snow_packard_tiles, cells);
     model->params.engine = SNOW_PACKARD_ENGINE_TILES;
     return SNOW_OK;
 }
@@ -312,15 +319,11 @@ static snow_status load_rows(snow_source *source, snow_grid *grid)
 
 static snow_status load_tree(snow_source *source, snow_grid *grid)
 {
-    packard *model = packard_of(grid);
     void *cells;
     snow_status status = snow_packard_tree_load(grid, source, &cells);
-    if (status != SNOW_OK)
-        return status;
-    model->engine->destroy(grid, model->cells);
-    model->engine = &snow_packard_quadtree;
-    model->cells = cells;
-    return SNOW_OK;
+    if (status == SNOW_OK)
+        use_engine(grid, &snow_packard_quadtree, cells);
+    return status;
 }
 
 static snow_status load_frozen(snow_source *source, const saved_scene *scene, snow_grid *grid)
@@ -353,11 +356,5 @@ snow_status snow_packard_load(snow_source *source, const snow_options *options, 
     status = snow_packard_build(&scene.params, options, scene.steps, &grid);
     if (status == SNOW_OK)
         status = load_all(source, &scene, grid);
-    if (status != SNOW_OK) {
-        if (grid != NULL)
-            snow_grid_end(grid);
-        return status;
-    }
-    *result = grid;
-    return SNOW_OK;
+    return snow_grid_hand_over(grid, status, result);
 }

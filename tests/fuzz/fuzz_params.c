@@ -18,6 +18,12 @@ static void *any_struct(fuzz_input *input, size_t right)
     return bytes;
 }
 
+/* The sign may stay, and so may everything that is wrong with it. */
+static int32_t with_bits(int32_t value, uint32_t bits)
+{
+    return (int32_t)((uint32_t)value & bits);
+}
+
 static snow_status create_of_any_bytes(fuzz_input *input, const snow_options *options, snow_grid **grid)
 {
     if (fuzz_below(input, 2) == 0) {
@@ -25,7 +31,7 @@ static snow_status create_of_any_bytes(fuzz_input *input, const snow_options *op
         if (params->struct_size >= sizeof *params) {
             params->seeds = NULL;
             params->background_at = params->addition_at = NULL;
-            params->radius &= 0x800003FF; /* what is larger takes long before memory runs out */
+            params->radius = with_bits(params->radius, 0x800003FF); /* what is larger takes long before memory runs out */
         }
         snow_status status = snow_reiter_create(params, options, grid);
         free(params);
@@ -78,9 +84,9 @@ static void draw_any_view(fuzz_input *input, const snow_grid *grid)
     snow_view *view = any_struct(input, sizeof *view);
     size_t size = 0;
     if (view->struct_size >= sizeof *view && fuzz_below(input, 4) != 0) {
-        view->width &= 0x8000001F;
-        view->height &= 0x8000001F;
-        view->samples &= 0x80000003;
+        view->width = with_bits(view->width, 0x8000001F);
+        view->height = with_bits(view->height, 0x8000001F);
+        view->samples = with_bits(view->samples, 0x80000003);
         view->palette = (snow_palette)(fuzz_byte(input) % 7);
         view->pixel = (snow_pixel)(fuzz_byte(input) % 5);
         view->transparent &= 1;
