@@ -254,6 +254,32 @@ static void memory_limits_are_kept(void **state)
     }
 }
 
+/* Whatever the head of a saved grid is made to say. */
+static void hostile_data_cost_little(void **state)
+{
+    (void)state;
+    enum { HEAD = 120 };
+    for (size_t i = 0; i < test_life_count; i++) {
+        snow_grid *grid = start_life(&test_lives[i], false, NULL);
+        assert_ok(snow_step(grid, 12));
+        saved_life saved = save_life(grid);
+        snow_destroy(grid);
+        for (size_t bit = 0; bit < 8 * HEAD && bit < 8 * saved.size; bit++) {
+            test_allocator allocator = {0};
+            snow_options options = allocator_options(&allocator);
+            options.memory_limit = UINT64_C(1) << 30; /* this machine's own */
+            saved.bytes[bit / 8] ^= (unsigned char)(1U << bit % 8);
+            grid = untouched;
+            assert_true(snow_load(saved.bytes, saved.size, &options, &grid) != SNOW_OK);
+            assert_ptr_equal(untouched, grid);
+            assert_true(allocator.peak_bytes <= 100 * saved.size + (64 << 20));
+            assert_int_equal(0, allocator.live_blocks);
+            saved.bytes[bit / 8] ^= (unsigned char)(1U << bit % 8);
+        }
+        free_life(&saved);
+    }
+}
+
 /* Scenes whose sizes have products beyond 32 and 64 bits: an answer at once, and no memory. */
 static void products_do_not_overflow(void **state)
 {
@@ -312,6 +338,7 @@ int main(void)
         cmocka_unit_test(every_call_survives_any_failure),
         cmocka_unit_test(making_survives_any_failure),
         cmocka_unit_test(memory_limits_are_kept),
+        cmocka_unit_test(hostile_data_cost_little),
         cmocka_unit_test(products_do_not_overflow),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
