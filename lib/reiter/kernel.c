@@ -94,15 +94,34 @@ static inline lanes is_beyond(vector value, vector limit)
     return ~((value <= limit) & (value >= -limit));
 }
 
+/* Where the band of a segment stands, in the field that is read and in the one that is written. */
+typedef struct band_place {
+    const element *row;
+    const element *above, *below; /* the rows next to it */
+    element *next;
+    size_t stride; /* from row to row */
+} band_place;
+
+static inline band_place place_of(const reiter_flow *flow, const reiter_segment *segment, size_t shift)
+{
+    const element *vapour = (const element *)flow->vapour + shift;
+    element *next = (element *)flow->next + shift;
+    return (band_place){vapour + segment->row, vapour + segment->above, vapour + segment->below, next + segment->row,
+                        segment->stride};
+}
+
 /* The four rows of a band at one place, each with the flow that it gets. */
 typedef struct band_flow {
     vector here[REITER_BAND];
     vector flow[REITER_BAND];
 } band_flow;
 
-static inline band_flow flow_at(const element *row, const element *above, const element *below, size_t stride,
-                                const constants *with)
+static inline band_flow flow_at(const band_place *band, size_t i, const constants *with)
 {
+    const element *row = band->row + i;
+    const element *above = band->above + i;
+    const element *below = band->below + i;
+    size_t stride = band->stride;
     row_cells r0 = load_row(row);
     row_cells r1 = load_row(row + stride);
     vector above_sum = load_aligned(above) + load(above + 1);
@@ -125,38 +144,27 @@ static inline bool is_full(const reiter_segment *segment)
 
 static void full_segment(const reiter_flow *flow, const reiter_segment *segment)
 {
-    const element *vapour = flow->vapour;
-    const element *row = vapour + segment->row;
-    const element *above = vapour + segment->above;
-    const element *below = vapour + segment->below;
-    element *next = (element *)flow->next + segment->row;
-    size_t stride = segment->stride;
+    const band_place band = place_of(flow, segment, 0);
     constants with = constants_of(flow);
     for (size_t i = 0; i < (size_t)segment->chunks * REITER_CHUNK; i += LANES) {
-        band_flow band = flow_at(row + i, above + i, below + i, stride, &with);
-        store_aligned(next + i, band.here[0] + band.flow[0]);
-        store_aligned(next + stride + i, band.here[1] + band.flow[1]);
-        store_aligned(next + 2 * stride + i, band.here[2] + band.flow[2]);
-        store_aligned(next + 3 * stride + i, band.here[3] + band.flow[3]);
+        band_flow at = flow_at(&band, i, &with);
+        for (size_t own = 0; own < REITER_BAND; own++)
+            store_aligned(band.next + own * band.stride + i, at.here[own] + at.flow[own]);
     }
 }
 
 /* One chunk, of which the masks name the cells; says whether anything flows. */
 static inline bool masked_chunk(const reiter_flow *flow, const reiter_segment *segment, size_t shift)
 {
-    const element *vapour = flow->vapour;
-    const element *row = vapour + segment->row + shift;
-    const element *above = vapour + segment->above + shift;
-    const element *below = vapour + segment->below + shift;
-    element *next = (element *)flow->next + segment->row + shift;
+    const band_place band = place_of(flow, segment, shift);
     constants with = constants_of(flow);
     lanes flowing = {0};
     for (int i = 0; i < REITER_CHUNK; i += LANES) {
-        band_flow band = flow_at(row + i, above + i, below + i, segment->stride, &with);
+        band_flow at = flow_at(&band, (size_t)i, &with);
         for (int own = 0; own < REITER_BAND; own++) {
-            vector flowed = (vector)((lanes)band.flow[own] & lanes_of(segment->mask[own], i));
+            vector flowed = (vector)((lanes)at.flow[own] & lanes_of(segment->mask[own], i));
             flowing |= is_beyond(flowed, with.tolerance);
-            store_aligned(next + (size_t)own * segment->stride + i, band.here[own] + flowed);
+            store_aligned(band.next + (size_t)own * band.stride + i, at.here[own] + flowed);
         }
     }
     return any(flowing);
@@ -165,19 +173,15 @@ static inline bool masked_chunk(const reiter_flow *flow, const reiter_segment *s
 /* One chunk of which all cells are computed; says whether anything flows. */
 static inline bool full_chunk(const reiter_flow *flow, const reiter_segment *segment, size_t shift, bool tolerates)
 {
-    const element *vapour = flow->vapour;
-    const element *row = vapour + segment->row + shift;
-    const element *above = vapour + segment->above + shift;
-    const element *below = vapour + segment->below + shift;
-    element *next = (element *)flow->next + segment->row + shift;
+    const band_place band = place_of(flow, segment, shift);
     constants with = constants_of(flow);
     lanes flowing = {0};
     for (int i = 0; i < REITER_CHUNK; i += LANES) {
-        band_flow band = flow_at(row + i, above + i, below + i, segment->stride, &with);
+        band_flow at = flow_at(&band, (size_t)i, &with);
         for (int own = 0; own < REITER_BAND; own++) {
             /* A flow of nothing has no bit set. */
-            flowing |= tolerates ? is_beyond(band.flow[own], with.tolerance) : (lanes)band.flow[own];
-            store_aligned(next + (size_t)own * segment->stride + i, band.here[own] + band.flow[own]);
+            flowing |= tolerates ? is_beyond(at.flow[own], with.tolerance) : (lanes)at.flow[own];
+            store_aligned(band.next + (size_t)own * band.stride + i, at.here[own] + at.flow[own]);
         }
     }
     return any(flowing);
