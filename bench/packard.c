@@ -421,17 +421,12 @@ int main(int argument_count, char **arguments)
         printf("bgolly is not installed: nothing to compare with\n");
         work.engines &= ~(unsigned)(QUICKLIFE | HASHLIFE);
     }
-    FILE *csv = NULL;
-    if (work.csv_path != NULL) {
-        csv = csv_open(work.csv_path, "scene,engine,isa,steps,population,rounds,seconds_min,seconds_median,seconds_max,"
-                                      "ratio,peak_mb", argument_count, arguments, work.date);
-        if (csv == NULL)
-            arguments_fail("%s: %s", work.csv_path, strerror(errno));
-    }
+    FILE *csv = csv_open(work.csv_path, "scene,engine,isa,steps,population,rounds,seconds_min,seconds_median,seconds_max,"
+                         "ratio,peak_mb", argument_count, arguments, work.date);
     bool right = true;
     for (size_t i = 0; i < work.count; i++)
         right = bench_scene(&work, work.chosen[i], csv) && right;
-    if (csv != NULL && !csv_close(csv))
+    if (!csv_close(csv))
         arguments_fail("%s could not be written", work.csv_path);
     return right ? 0 : 1;
 }

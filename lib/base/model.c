@@ -20,12 +20,7 @@ snow_status snow_grid_new(const snow_model_operations *operations, const snow_op
     snow_census_start(&grid->census);
     if (settled.threads > 1 && settled.parallel_for == NULL)
         status = snow_team_start(&grid->team, &grid->heap, settled.threads);
-    if (status != SNOW_OK) {
-        snow_grid_end(grid);
-        return status;
-    }
-    *result = grid;
-    return SNOW_OK;
+    return snow_grid_hand_over(grid, status, result);
 }
 
 void snow_grid_end(snow_grid *grid)
@@ -36,6 +31,15 @@ void snow_grid_end(snow_grid *grid)
     snow_domain_end(&grid->domain, &grid->heap);
     snow_heap heap = grid->heap; /* outlives the block that it stands in */
     snow_heap_put(&heap, grid);
+}
+
+snow_status snow_grid_hand_over(snow_grid *grid, snow_status status, snow_grid **result)
+{
+    if (status == SNOW_OK)
+        *result = grid;
+    else if (grid != NULL)
+        snow_grid_end(grid);
+    return status;
 }
 
 void snow_grid_for(const snow_grid *grid, size_t count, snow_task task, void *argument)
@@ -72,10 +76,14 @@ snow_stop_reason snow_crystal_stops(const snow_grid *grid, const snow_stop *stop
         return SNOW_STOP_RIM;
     if (stop->tip_radius > 0 && snow_census_tip(census) >= stop->tip_radius)
         return SNOW_STOP_RADIUS;
+    if (stop->height > 0 && census->height >= stop->height)
+        return SNOW_STOP_HEIGHT;
     if (stop->frozen > 0 && snow_census_frozen(census) >= stop->frozen)
         return SNOW_STOP_FROZEN;
     if (stop->still && census->still)
         return SNOW_STOP_STILL;
+    if (census->full)
+        return SNOW_STOP_FULL;
     if (stop->max_steps >= 0 && census->steps >= stop->max_steps)
         return SNOW_STOP_STEPS;
     return SNOW_STOP_NONE;

@@ -1,5 +1,7 @@
 #include "base/floating.h"
 #include "base/model.h"
+#include "base/options.h"
+#include "base/stream.h"
 #include "grid/models.h"
 
 #include <string.h>
@@ -29,30 +31,11 @@ snow_status snow_save_to(const snow_grid *grid, snow_writer write, void *context
     return sink.failed ? SNOW_ERROR_WRITE : SNOW_OK;
 }
 
-static int append(void *context, const void *bytes, size_t size)
-{
-    unsigned char **end = context;
-    memcpy(*end, bytes, size);
-    *end += size;
-    return 0;
-}
-
 snow_status snow_save(const snow_grid *grid, void *buffer, size_t capacity, size_t *size)
 {
     if (grid == NULL || size == NULL)
         return SNOW_ERROR_NULL;
-    snow_sink sink;
-    snow_sink_start(&sink, NULL, NULL);
-    save(grid, &sink);
-    if (sink.total > SIZE_MAX)
-        return SNOW_ERROR_TOO_LARGE;
-    *size = (size_t)sink.total;
-    if (buffer == NULL)
-        return SNOW_OK;
-    if (capacity < *size)
-        return SNOW_ERROR_BUFFER;
-    unsigned char *end = buffer;
-    return snow_save_to(grid, append, &end);
+    return snow_save_whole(grid, snow_save_to, buffer, capacity, size);
 }
 
 static uint64_t checksum_of(const unsigned char *bytes, size_t size)
@@ -79,6 +62,16 @@ static snow_status check_envelope(const unsigned char *bytes, size_t size)
     return SNOW_OK;
 }
 
+/* Data whose checksum is wrong are read only to say what is wrong with them: a wrong number in them must not ask
+   for much memory. */
+static void limit_memory(snow_options *options, size_t size)
+{
+    enum { TIMES = 64, LEAST = 1 << 20 };
+    uint64_t enough = (uint64_t)size * TIMES + LEAST;
+    if (options->memory_limit == 0 || options->memory_limit > enough)
+        options->memory_limit = enough;
+}
+
 static snow_status load(const unsigned char *bytes, size_t size, const snow_options *options, snow_grid **result)
 {
     snow_status status = check_envelope(bytes, size);
@@ -93,16 +86,19 @@ static snow_status load(const unsigned char *bytes, size_t size, const snow_opti
     if (operations == NULL)
         return intact ? SNOW_ERROR_FORMAT_VERSION : SNOW_ERROR_DAMAGED;
 
+    snow_options settled;
+    status = snow_options_settle(options, &settled);
+    if (status != SNOW_OK)
+        return status;
+    if (!intact)
+        limit_memory(&settled, size);
     snow_grid *grid = NULL;
-    status = operations->load(&source, options, &grid);
+    status = operations->load(&source, &settled, &grid);
     if (status == SNOW_OK && (!intact || snow_source_left(&source) > 0))
         status = SNOW_ERROR_DAMAGED;
-    if (status != SNOW_OK) {
-        snow_destroy(grid);
-        return status;
-    }
-    *result = grid;
-    return SNOW_OK;
+    if (!intact && status != SNOW_ERROR_TRUNCATED)
+        status = SNOW_ERROR_DAMAGED;
+    return snow_grid_hand_over(grid, status, result);
 }
 
 snow_status snow_load(const void *buffer, size_t size, const snow_options *options, snow_grid **grid)

@@ -162,10 +162,14 @@ snow_status snow_packard_advance(snow_grid *grid, int64_t most, const snow_stop 
     int64_t steps = safe_steps(grid, lesser(most, same_zones), stop);
     int64_t ahead = greater(steps, lesser(same_zones, expected_steps(grid, stop)));
     snow_status status = snow_packard_choose(grid, ahead, &steps);
+    steps = safe_steps(grid, steps, stop); /* an engine that cannot go back has to look sooner */
     if (status == SNOW_OK)
         status = change_zones(grid);
     if (status != SNOW_OK)
         return status;
+    bool hurries = stop != NULL && stop->seconds > 0;
+    if (hurries && model->engine->keep != NULL) /* in one go it may take steps for hours */
+        steps = lesser(steps, greater(grid->census.steps, 64));
     bool seeks = stop != NULL && stop->frozen > 0 && model->engine->keep != NULL;
     return seeks ? take_until_frozen(grid, steps, stop) : take(grid, steps);
 }

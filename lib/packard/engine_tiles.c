@@ -166,10 +166,17 @@ static int64_t date(const void *engine, int64_t q, int64_t r)
 
 static snow_status advance(void *engine, int64_t steps, int64_t *taken)
 {
-    tile_cells *cells = engine;
-    int64_t before = snow_tiles_steps(cells->tiles);
-    snow_status status = snow_tiles_advance(cells->tiles, steps);
-    *taken = snow_tiles_steps(cells->tiles) - before;
+    enum { ENOUGH_VISITS = 1 << 17 };
+    snow_tiles *tiles = ((tile_cells *)engine)->tiles;
+    int64_t before = snow_tiles_steps(tiles);
+    uint64_t visits = snow_tiles_visits(tiles);
+    snow_status status = SNOW_OK;
+    *taken = 0;
+    while (status == SNOW_OK && *taken < steps && snow_tiles_visits(tiles) - visits < ENOUGH_VISITS) {
+        int64_t part = *taken > 0 ? *taken : 1;
+        status = snow_tiles_advance(tiles, part < steps - *taken ? part : steps - *taken);
+        *taken = snow_tiles_steps(tiles) - before;
+    }
     return status;
 }
 

@@ -65,7 +65,8 @@ typedef struct packard_engine {
     void (*copy)(const void *cells, const packard_region *region, uint64_t *words);
     /* −1: not frozen. Only of grids that record it. */
     int64_t (*date)(const void *cells, int64_t q, int64_t r);
-    /* Takes steps in which the same zones apply. On failure *taken says how many were. */
+    /* Takes so many steps, in which the same zones apply, or stops after a part of them, so that a caller with little
+       time is asked. *taken says how many were taken, also on failure. */
     snow_status (*advance)(void *cells, int64_t steps, int64_t *taken);
     /* Other zones apply in the next step than in the last. On failure the old ones do. */
     snow_status (*change_zones)(void *cells);

@@ -247,11 +247,15 @@ static snow_status take_step(reference *cells, int64_t step)
 
 static snow_status advance(void *engine, int64_t steps, int64_t *taken)
 {
+    const int64_t enough_cells = 1 << 22;
     reference *cells = engine;
     int64_t before = cells->grid->census.steps;
+    int64_t visited = 0;
     snow_status status = SNOW_OK;
-    for (*taken = 0; *taken < steps && status == SNOW_OK; *taken += status == SNOW_OK)
+    for (*taken = 0; *taken < steps && visited < enough_cells && status == SNOW_OK; *taken += status == SNOW_OK) {
         status = take_step(cells, before + *taken + 1);
+        visited += cells->width * cells->height;
+    }
     return status;
 }
 

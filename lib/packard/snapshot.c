@@ -300,11 +300,5 @@ snow_status snow_packard_load(snow_source *source, const snow_options *options, 
     status = snow_packard_build(&scene.params, options, scene.steps, &grid);
     if (status == SNOW_OK)
         status = load_all(source, &scene, grid);
-    if (status != SNOW_OK) {
-        if (grid != NULL)
-            snow_grid_end(grid);
-        return status;
-    }
-    *result = grid;
-    return SNOW_OK;
+    return snow_grid_hand_over(grid, status, result);
 }

@@ -319,10 +319,9 @@ snow_status snow_packard_add_zone(snow_grid *grid, const snow_packard_zone *call
     if (grid->busy)
         return SNOW_ERROR_BUSY;
     snow_packard_zone zone;
-    status = snow_struct_check(caller, sizeof zone, sizeof zone);
+    status = snow_struct_take(&zone, sizeof zone, caller);
     if (status != SNOW_OK)
         return status;
-    snow_struct_read(&zone, sizeof zone, caller);
     packard_zone copy = {.cells = NULL};
     snow_floating floating;
     snow_floating_enter(&floating);

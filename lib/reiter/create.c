@@ -95,13 +95,7 @@ snow_status snow_reiter_build(const snow_reiter_params *params, const snow_optio
         status = snow_grid_new(&snow_reiter_operations, options, &grid);
     if (status == SNOW_OK)
         status = build(grid, params);
-    if (status != SNOW_OK) {
-        if (grid != NULL)
-            snow_grid_end(grid);
-        return status;
-    }
-    *result = grid;
-    return SNOW_OK;
+    return snow_grid_hand_over(grid, status, result);
 }
 
 static void destroy(snow_grid *grid)
@@ -139,8 +133,10 @@ static snow_status advance(snow_grid *grid, int64_t most, const snow_stop *stop)
 {
     snow_census *census = &grid->census;
     snow_status status = take_steps(grid, most, stop);
-    if (status == SNOW_OK && census->steps % REITER_MERGE_STEPS == 0)
+    if (status == SNOW_OK && census->steps % REITER_MERGE_STEPS == 0) {
         snow_reiter_merge_additions(grid);
+        reiter_of(grid)->engine->settle(grid);
+    }
     return status;
 }
 
@@ -161,10 +157,9 @@ snow_status snow_reiter_create(const snow_reiter_params *caller, const snow_opti
     if (caller == NULL || result == NULL)
         return SNOW_ERROR_NULL;
     snow_reiter_params params;
-    snow_status status = snow_struct_check(caller, sizeof params, sizeof params);
+    snow_status status = snow_struct_take(&params, sizeof params, caller);
     if (status != SNOW_OK)
         return status;
-    snow_struct_read(&params, sizeof params, caller);
 
     snow_floating floating;
     snow_floating_enter(&floating);
@@ -173,10 +168,5 @@ snow_status snow_reiter_create(const snow_reiter_params *caller, const snow_opti
     if (status == SNOW_OK)
         status = snow_reiter_scene(grid, &params);
     snow_floating_leave(&floating);
-    if (status != SNOW_OK) {
-        snow_destroy(grid);
-        return status;
-    }
-    *result = grid;
-    return SNOW_OK;
+    return snow_grid_hand_over(grid, status, result);
 }

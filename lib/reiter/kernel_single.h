@@ -29,6 +29,15 @@ static inline vector spread(element x)
     return x - (vector){0};
 }
 
+/* Lane by lane: where floats are computed as doubles (FLT_EVAL_METHOD 1, s390x) a float less a vector is none. */
+static inline float_vector spread_float(float x)
+{
+    float_vector all;
+    for (size_t i = 0; i < sizeof all / sizeof x; i++)
+        all[i] = x;
+    return all;
+}
+
 /* What stays the same for all cells of a step. */
 typedef struct constants {
     float_vector weight;
@@ -37,7 +46,7 @@ typedef struct constants {
 
 static inline constants constants_of(const reiter_flow *flow)
 {
-    return (constants){(float)flow->weight - (float_vector){0}, spread(element_of(flow->tolerance))};
+    return (constants){spread_float((float)flow->weight), spread(element_of(flow->tolerance))};
 }
 
 static inline vector less_six(vector sum, vector here, const constants *with)

@@ -211,7 +211,7 @@ void snow_reiter_recount(snow_grid *grid);
 void snow_reiter_choose_bound(snow_grid *grid);
 /* Whether every cell that is called receptive is, and no other; before settle. */
 bool snow_reiter_receptive_are_sound(const snow_grid *grid);
-/* Merges the additions of receptive cells into their values, exact to one rounding. */
+/* Merges the additions of receptive cells into their values, exact to one rounding; before settle. */
 void snow_reiter_merge_additions(snow_grid *grid);
 
 /* fields.c, snapshot.c */
