@@ -100,8 +100,8 @@ typedef enum snow_stop_reason {
     SNOW_STOP_TIME = 6,      /**< The wall-clock budget was spent. */
     SNOW_STOP_CANCELLED = 7, /**< The progress callback asked for it. */
     SNOW_STOP_UNSTABLE = 8,  /**< The field grew without bound; the call returns ::SNOW_ERROR_UNSTABLE. */
-    SNOW_STOP_FULL = 20,     /**< Nothing more can join: the domain is full. Always looked at. */
-    SNOW_STOP_HEIGHT = 21    /**< The deposit reached the height. */
+    SNOW_STOP_FULL = 9,      /**< Nothing more can join: the domain is full. Always looked at. */
+    SNOW_STOP_HEIGHT = 10    /**< The deposit reached the height. */
 } snow_stop_reason;
 
 /**
@@ -160,7 +160,7 @@ typedef struct snow_stop {
     double seconds;         /**< Ends after this much wall-clock time; 0: no limit. */
     snow_progress progress; /**< Told about the run, and can end it; may be NULL. */
     void *progress_context; /**< Handed to progress. */
-    int64_t progress_steps; /**< Steps between two calls of progress, at least 1; 100 by default. */
+    int64_t progress_steps; /**< Steps between two calls of progress, at least 1; 100 by default. Where work leads to no step (aggregate.h: walkers that are lost), progress is called between them, too. */
     int64_t height;         /**< Ends when a deposit is at least so many rows high; 0: no limit. For models with a floor. */
 } snow_stop;
 
