@@ -83,6 +83,20 @@ extern const packard_engine snow_packard_reference;
 extern const packard_engine snow_packard_tiles;
 extern const packard_engine snow_packard_quadtree;
 
+/* What the quadtree had done when the crystal had some size. */
+typedef struct packard_effort {
+    double size, work;
+} packard_effort;
+
+/* How the quadtree gets on, for the choice of engine. */
+typedef struct packard_trial {
+    int64_t first_step; /* when it began */
+    double first_size;
+    packard_effort now, mark[3]; /* and when the size had doubled, newest first; 0: not yet */
+    bool passed;
+    double left_for; /* the size for which it was left; 0: it was not */
+} packard_trial;
+
 typedef struct packard {
     snow_packard_params params; /* checked; pointers cleared after creation */
     packard_zone *zones;
@@ -92,11 +106,7 @@ typedef struct packard {
 
     const packard_engine *engine;
     void *cells;
-    /* How the quadtree got on, for the choice of engine. */
-    bool watched;        /* it has taken steps since it was chosen */
-    bool left_quadtree;  /* it took too much, and is not chosen again */
-    uint64_t nodes;      /* that it had made before the last of these steps */
-    double work_before, work; /* that they and the last ones took, in cells of area */
+    packard_trial trial;
     packard_fold fold;
 } packard;
 
@@ -166,7 +176,7 @@ int64_t snow_packard_rim_distance(const snow_packard_params *params);
 bool snow_packard_is_at_rim(const snow_grid *grid);
 
 /* engine_quadtree.c */
-/* Nodes that the quadtree has made so far. */
+/* What the quadtree has done so far: nodes made and results found. */
 uint64_t snow_packard_tree_work(const void *cells);
 /* What a saved grid holds of a crystal in the quadtree. */
 void snow_packard_tree_save(void *cells, snow_sink *sink);
@@ -174,8 +184,8 @@ snow_status snow_packard_tree_load(snow_grid *grid, snow_source *source, void **
 
 /* choose.c */
 /* Chooses the engine for the next steps, of which at most *steps are to be
-   taken; may ask for fewer. */
-snow_status snow_packard_choose(snow_grid *grid, int64_t *steps);
+   taken; may ask for fewer. So many steps seem to lie ahead. */
+snow_status snow_packard_choose(snow_grid *grid, int64_t ahead, int64_t *steps);
 
 /* advance.c */
 snow_status snow_packard_advance(snow_grid *grid, int64_t most, const snow_stop *stop);

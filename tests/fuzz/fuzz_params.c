@@ -108,7 +108,7 @@ static void use_any_options(fuzz_input *input)
     if (options->struct_size >= sizeof *options) {
         options->allocate = NULL;
         if (options->threads != -1)
-            options->threads &= 0x80000401; /* none is started: two threads cost more than all the rest */
+            options->threads = with_bits(options->threads, 0x80000401); /* none is started: two threads cost more than all the rest */
         options->parallel_for = NULL;
         options->memory_limit &= 0xFFFF;
         options->memory_limit |= 1;

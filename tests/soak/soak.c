@@ -21,7 +21,7 @@ const char *const program_name = "snowgrowth-soak";
 static const struct {
     const char *name;
     soak_scene grow;
-} models[] = {{"reiter", soak_reiter}, {"packard", soak_packard}};
+} models[] = {{"reiter", soak_reiter}, {"packard", soak_packard}, {"aggregate", soak_aggregate}};
 
 enum { MODELS = COUNT_OF(models), QUARTERS = 4, MEGABYTE = 1 << 20 };
 
@@ -60,7 +60,7 @@ static void print_help(void)
            "  --seconds N     for so long (default: 60)\n"
            "  --scenes N      at most so many scenes (default: no limit)\n"
            "  --seed N        seed of the first scene; the next have the next numbers (default: 1)\n"
-           "  --model NAME    only this model: reiter, packard\n"
+           "  --model NAME    only this model: reiter, packard, aggregate\n"
            "  --verbose       say what is done\n"
            "  --help          this text\n\n"
            "To grow one scene again: %s --model NAME --scenes 1 --seed N --verbose\n",
@@ -162,30 +162,31 @@ static void grow_scenes(void **state)
         double by_count = (double)(i + 1) / (double)work->scenes, by_time = (after - start) / (double)work->seconds;
         note_memory(shared, by_count > by_time ? by_count : by_time);
     }
+    soak_judge_law();
 }
 
 static bool report(const record *shared, int how)
 {
     const plan *work = &shared->work;
     for (size_t i = 0; i < MODELS; i++)
-        printf("%-8s %" PRIu64 " scenes\n", models[i].name, shared->scenes[i]);
-    printf("memory   at least %.1f, %.1f, %.1f, %.1f MB left after a scene in the four quarters, at most %.1f MB\n",
+        printf("%-9s %" PRIu64 " scenes\n", models[i].name, shared->scenes[i]);
+    printf("memory    at least %.1f, %.1f, %.1f, %.1f MB left after a scene in the four quarters, at most %.1f MB\n",
            (double)shared->least_left[0] / MEGABYTE, (double)shared->least_left[1] / MEGABYTE,
            (double)shared->least_left[2] / MEGABYTE, (double)shared->least_left[3] / MEGABYTE,
            (double)shared->most_left / MEGABYTE);
-    printf("slowest  %.1f s, seed %" PRIu64 "\n", shared->slowest, shared->slowest_seed);
+    printf("slowest   %.1f s, seed %" PRIu64 "\n", shared->slowest, shared->slowest_seed);
     if (!WIFEXITED(how) || WEXITSTATUS(how) != 0) {
         if (WIFSIGNALED(how))
-            printf("signal   %d\n", WTERMSIG(how));
-        printf("FAILED   %s --model %s --scenes 1 --seed %" PRIu64 "\n", program_name,
+            printf("signal    %d\n", WTERMSIG(how));
+        printf("FAILED    %s --model %s --scenes 1 --seed %" PRIu64 "\n", program_name,
                models[model_of(work, shared->seed)].name, shared->seed);
         return false;
     }
     if (shared->least_left[0] != 0 && shared->least_left[QUARTERS - 1] > shared->least_left[0] + growth_allowed) {
-        printf("FAILED   the process grows\n");
+        printf("FAILED    the process grows\n");
         return false;
     }
-    printf("passed   seeds %" PRIu64 " to %" PRIu64 "\n", work->seed, shared->seed);
+    printf("passed    seeds %" PRIu64 " to %" PRIu64 "\n", work->seed, shared->seed);
     return true;
 }
 

@@ -11,6 +11,10 @@ typedef void (*soak_scene)(uint64_t *random);
 
 void soak_reiter(uint64_t *random);
 void soak_packard(uint64_t *random);
+void soak_aggregate(uint64_t *random);
+
+/* Prints how far apart the engines of aggregation are that follow one law, and fails where that is no chance. */
+void soak_judge_law(void);
 
 /* Told what is done, for --verbose. */
 extern bool soak_talks;
