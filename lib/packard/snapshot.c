@@ -278,7 +278,8 @@ static snow_status use_tiles(snow_grid *grid)
 {
     packard *model = packard_of(grid);
     void *cells;
-    snow_status status = snow_packard_tiles.create(grid, false, &cells);
+    const packard_fold unfolded = {.possible = false};
+    snow_status status = snow_packard_tiles.create(grid, &unfolded, &cells);
     if (status != SNOW_OK)
         return status;
     model->engine->destroy(grid, model->cells);
