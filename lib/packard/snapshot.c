@@ -274,17 +274,23 @@ static bool is_dear_domain(const snow_source *source, const snow_packard_params 
     return is_dear(source, params->width, params->height);
 }
 
+/* In place of an engine that has no cells yet. */
+static void use_engine(snow_grid *grid, const packard_engine *engine, void *cells)
+{
+    packard *model = packard_of(grid);
+    model->engine->destroy(grid, model->cells);
+    model->engine = engine;
+    model->cells = cells;
+}
+
 static snow_status use_tiles(snow_grid *grid)
 {
     packard *model = packard_of(grid);
     void *cells;
-    const packard_fold unfolded = {.possible = false};
-    snow_status status = snow_packard_tiles.create(grid, &unfolded, &cells);
+    snow_status status = snow_packard_tiles.create(grid, &model->fold, &cells);
     if (status != SNOW_OK)
         return status;
-    model->engine->destroy(grid, model->cells);
-    model->engine = &snow_packard_tiles;
-    model->cells = cells;
+    use_engine(grid, &snow_packard_tiles, cells);
     model->params.engine = SNOW_PACKARD_ENGINE_TILES;
     return SNOW_OK;
 }
@@ -313,15 +319,11 @@ static snow_status load_rows(snow_source *source, snow_grid *grid)
 
 static snow_status load_tree(snow_source *source, snow_grid *grid)
 {
-    packard *model = packard_of(grid);
     void *cells;
     snow_status status = snow_packard_tree_load(grid, source, &cells);
-    if (status != SNOW_OK)
-        return status;
-    model->engine->destroy(grid, model->cells);
-    model->engine = &snow_packard_quadtree;
-    model->cells = cells;
-    return SNOW_OK;
+    if (status == SNOW_OK)
+        use_engine(grid, &snow_packard_quadtree, cells);
+    return status;
 }
 
 static snow_status load_frozen(snow_source *source, const saved_scene *scene, snow_grid *grid)
