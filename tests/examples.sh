@@ -100,7 +100,7 @@ test_hello() {
 }
 
 test_help() {
-    for program in snowflake table alpha_sweep random_seeds changing_conditions packard packard_figures animation; do
+    for program in snowflake table alpha_sweep random_seeds changing_conditions packard packard_figures aggregate animation; do
         if built "$program"; then
             run $program --help
             check "$program --help" helped "$program"
@@ -454,6 +454,49 @@ holds_frames() {
         [ "$(wc -c <"$1")" -eq $((frames * (13 + 50 * 50 * 3))) ]
 }
 
+aggregate_line='^particles=[0-9]+ rg=[0-9.e+]+ radius=[0-9.e+]+ seconds=[0-9.]+$'
+
+test_aggregate() {
+    for scene in witten-sander 'witten-sander --lattice hexagonal --contact entry' 'line --lattice cubic --depth 20' \
+        electrolysis 'electrolysis --interaction 5 --cathode 20,40 --launch 10,50' 'shore --hardness 1,5' \
+        'chimney --walls 0,39,5,34' snowflake 'laboratory --launch-radius 20 --end-radius 15' off-lattice \
+        'cluster-cluster --density 0.1'; do
+        # shellcheck disable=SC2086
+        run aggregate --particles 60 --width 60 --height 60 --scene $scene --size 64 --out scene.png
+        [ "$code" -ne 0 ] || code=$(is_png scene.png; echo $?)
+        check "aggregate --scene $scene" printed "$aggregate_line"
+    done
+    run aggregate --particles 300 --seed 5 --sites sites --ply cloud.ply --vtk cloud.vtk
+    check 'aggregate ends with the line' printed "$aggregate_line"
+    check 'aggregate --sites: a line a particle' [ "$(lines sites)" -eq 300 ]
+    check 'aggregate --sites: the seed comes first' [ "$(head -n 1 sites)" = '0 0' ]
+    check 'aggregate --ply' grep -aq '^element vertex 300$' cloud.ply
+    check 'aggregate --vtk' grep -q '^POINTS 300 float$' cloud.vtk
+    run aggregate --particles 300 --seed 5 --threads 2 --sites threads
+    check 'aggregate --threads gives the same sites' cmp -s sites threads
+    run aggregate --particles 100 --seed 5 --save half.snow
+    run aggregate --load half.snow --particles 300 --sites continued
+    check 'aggregate: saved and continued, the same sites' cmp -s sites continued
+    run aggregate --load half.snow --seed 4
+    check 'a growth that is loaded is not described again' complained aggregate 2
+    run aggregate --checkpoint 5
+    check 'aggregate --checkpoint goes with --save' complained aggregate 2
+    for option in '--stick 0' '--stick 1.5' '--scene electrolysis --interaction -1' '--scene shore --hardness 5,2' \
+        '--scene electrolysis --launch 300,400' '--scene chimney --walls 9,9,0,9' '--scene nowhere' '--hits 0' \
+        '--launch 1' '--scene cluster-cluster --density 2'; do
+        # shellcheck disable=SC2086
+        run aggregate $option --out wrong.png
+        check "aggregate $option" complained aggregate 2
+    done
+    check 'wrong commands leave nothing' nothing_left wrong.png
+    if [ -c /dev/full ]; then
+        run aggregate --particles 5000 --sites /dev/full
+        check 'aggregate: a full disk' complained aggregate 1
+    else
+        skip 'aggregate: a full disk' 'no /dev/full here'
+    fi
+}
+
 : >stdout
 : >stderr
 test_hello
@@ -469,6 +512,7 @@ if built snowflake; then
     test_interrupt
     test_sheets
     test_animation
+    test_aggregate
 else
     skip 'all others' 'built without libpng'
 fi

@@ -378,10 +378,10 @@ static void set_images(pair *both, int64_t q, int64_t r)
     for (int symmetry = 0; symmetry < SNOW_HEXAGON_SYMMETRIES; symmetry++) {
         int64_t image_q, image_r;
         snow_hexagon_image(symmetry, q, r, &image_q, &image_r);
-        plain_set(&both->model, both->plan.centre_q + image_q, both->plan.centre_r + image_r);
+        plain_set(&both->model, both->plan.fold_q + image_q, both->plan.fold_r + image_r);
     }
     for (size_t i = 0; i < both->planes; i++)
-        assert_int_equal(SNOW_OK, snow_tiles_set(both->tiles[i], both->plan.centre_q + q, both->plan.centre_r + r));
+        assert_int_equal(SNOW_OK, snow_tiles_set(both->tiles[i], both->plan.fold_q + q, both->plan.fold_r + r));
 }
 
 static void every_rule_folded(void **state)
@@ -408,7 +408,7 @@ static void every_rule_folded(void **state)
 static void a_folded_plane_anywhere(void **state)
 {
     (void)state;
-    snow_tiles_plan plan = {.freezes = 0x02, .folded = true, .centre_q = 37, .centre_r = -70};
+    snow_tiles_plan plan = {.freezes = 0x02, .folded = true, .fold_q = 37, .fold_r = -70, .centre_q = 11};
     pair both;
     pair_start(&both, &plan, window_of(180));
     set_images(&both, 0, 0);

@@ -495,9 +495,9 @@ static void the_choice_of_engine_is_the_expected_one(void **state)
         snow_packard_engine engine;
     } scenes[] = {
         {"0100000", 100, 0, SNOW_PACKARD_ENGINE_TILES},
-        {"0100000", 1000, 0, SNOW_PACKARD_ENGINE_TILES},
+        {"0100000", 4000, 0, SNOW_PACKARD_ENGINE_TILES},
         {"0100000", 100000, 0, SNOW_PACKARD_ENGINE_QUADTREE},
-        {"0101010", 10000, 0, SNOW_PACKARD_ENGINE_QUADTREE},
+        {"0101010", 4000, 0, SNOW_PACKARD_ENGINE_QUADTREE},
         {"0100000", 100, 3000, SNOW_PACKARD_ENGINE_TILES},
     };
     for (size_t i = 0; i < COUNT_OF(scenes); i++) {

@@ -5,7 +5,8 @@
  * A grid is made by its model's create call (snow_reiter_create()), stepped,
  * asked, saved, loaded and destroyed by the calls of this page.
  *
- * **Cells.** Every model lives on the hexagonal lattice in axial coordinates
+ * **Cells.** Models live on the hexagonal lattice (aggregation: see aggregate.h)
+ * in axial coordinates
  * (q, r); the six neighbours of a cell are (±1, 0), (0, ±1), (1, −1), (−1, 1)
  * and its squared Euclidean distance from the origin, in lattice spacings, is
  * q² + q·r + r². Drawn with x to the right and y down, cell (q, r) stands at
@@ -38,8 +39,9 @@ typedef struct snow_grid snow_grid;
 
 /** @brief The models that a grid can follow. */
 typedef enum snow_model {
-    SNOW_MODEL_REITER = 1, /**< Reiter's two-parameter model of 2005; see reiter.h. */
-    SNOW_MODEL_PACKARD = 2 /**< Packard's Boolean rules, with zones; see packard.h. */
+    SNOW_MODEL_REITER = 1,   /**< Reiter's two-parameter model of 2005; see reiter.h. */
+    SNOW_MODEL_PACKARD = 2,  /**< Packard's Boolean rules, with zones; see packard.h. */
+    SNOW_MODEL_AGGREGATE = 3 /**< Aggregation and erosion; see aggregate.h. */
 } snow_model;
 
 /** @brief A cell in axial coordinates. */
@@ -97,11 +99,14 @@ typedef enum snow_stop_reason {
     SNOW_STOP_STILL = 5,     /**< No cell will freeze again, not in 2^40 steps. */
     SNOW_STOP_TIME = 6,      /**< The wall-clock budget was spent. */
     SNOW_STOP_CANCELLED = 7, /**< The progress callback asked for it. */
-    SNOW_STOP_UNSTABLE = 8   /**< The field grew without bound; the call returns ::SNOW_ERROR_UNSTABLE. */
+    SNOW_STOP_UNSTABLE = 8,  /**< The field grew without bound; the call returns ::SNOW_ERROR_UNSTABLE. */
+    SNOW_STOP_FULL = 9,      /**< Nothing more can join: the domain is full. Always looked at. */
+    SNOW_STOP_HEIGHT = 10    /**< The deposit reached the height. */
 } snow_stop_reason;
 
 /**
- * @brief The short name of a reason ("steps", "rim", "radius", "frozen", "still", "time", "cancelled", "unstable").
+ * @brief The short name of a reason ("steps", "rim", "radius", "frozen", "still", "time", "cancelled", "unstable",
+ *        "full", "height").
  * @param reason any value.
  * @return A constant string that the library owns; never NULL.
  */
@@ -143,7 +148,7 @@ typedef int (*snow_progress)(void *context, const snow_grid *grid, const snow_su
  * All counts are those of the grid, not of the run: a run that was stopped and
  * is started again with the same conditions goes on to the same end. When
  * several hold after the same step, the reason is the first of: rim, radius,
- * frozen, still, steps, cancelled, time.
+ * height, frozen, still, full, steps, cancelled, time.
  */
 typedef struct snow_stop {
     size_t struct_size;     /**< Set by snow_stop_init(). */
@@ -155,7 +160,8 @@ typedef struct snow_stop {
     double seconds;         /**< Ends after this much wall-clock time; 0: no limit. */
     snow_progress progress; /**< Told about the run, and can end it; may be NULL. */
     void *progress_context; /**< Handed to progress. */
-    int64_t progress_steps; /**< Steps between two calls of progress, at least 1; 100 by default. */
+    int64_t progress_steps; /**< Steps between two calls of progress, at least 1; 100 by default. Where work leads to no step (aggregate.h: walkers that are lost), progress is called between them, too. */
+    int64_t height;         /**< Ends when a deposit is at least so many rows high; 0: no limit. For models with a floor. */
 } snow_stop;
 
 /**
@@ -176,7 +182,8 @@ SNOW_API void snow_stop_init(snow_stop *stop, size_t struct_size);
  *         negative; ::SNOW_ERROR_BUSY from inside a progress callback;
  *         ::SNOW_ERROR_UNSTABLE when the field grows without bound, the grid
  *         then stands at its last sound step; ::SNOW_ERROR_STEP_LIMIT when the
- *         step count would pass 2^62.
+ *         step count would pass 2^62; ::SNOW_ERROR_FULL when nothing more can
+ *         join, the grid then stands at its last step.
  */
 SNOW_API snow_status snow_step(snow_grid *grid, int64_t steps);
 
@@ -327,7 +334,8 @@ SNOW_API snow_status snow_cell_value(const snow_grid *grid, snow_field field, in
  *        be NULL unless values is.
  * @return as snow_cell_value(); ::SNOW_ERROR_RECTANGLE when the rectangle has
  *         a negative extent or leaves the range of int32_t;
- *         ::SNOW_ERROR_TOO_LARGE where snow_domain_bounds() says so;
+ *         ::SNOW_ERROR_TOO_LARGE where snow_domain_bounds() says so, and for more
+ *         numbers than an array can have on this machine;
  *         ::SNOW_ERROR_BUFFER when capacity is too small, nothing is copied.
  *         Cost: proportional to the rectangle.
  */
@@ -350,7 +358,8 @@ SNOW_API snow_status snow_field_copy(const snow_grid *grid, snow_field field, co
  * @return ::SNOW_OK, ::SNOW_ERROR_NULL, ::SNOW_ERROR_ENUM, ::SNOW_ERROR_BUSY,
  *         ::SNOW_ERROR_NO_MEMORY, ::SNOW_ERROR_MEMORY_LIMIT;
  *         ::SNOW_ERROR_UNSUPPORTED when the field cannot be set;
- *         ::SNOW_ERROR_RECTANGLE; ::SNOW_ERROR_BUFFER when count is not the
+ *         ::SNOW_ERROR_RECTANGLE and ::SNOW_ERROR_TOO_LARGE as in
+ *         snow_field_copy(); ::SNOW_ERROR_BUFFER when count is not the
  *         rectangle's; ::SNOW_ERROR_NOT_FINITE or the model's own status when
  *         a number is out of range.
  */
@@ -363,6 +372,7 @@ SNOW_API snow_status snow_field_set(snow_grid *grid, snow_field field, const sno
  * @param vapour receives the sum over the cells that are not frozen; may be NULL.
  * @param ice receives the sum over the frozen cells; may be NULL.
  * @return ::SNOW_OK; ::SNOW_ERROR_NULL when grid is, or both others are;
+ *         what snow_cell_value() says of ::SNOW_FIELD_VALUE;
  *         ::SNOW_ERROR_TOO_LARGE where snow_domain_bounds() says so. Cost:
  *         proportional to the domain. The sums are compensated: their error is
  *         about one unit in the last place.
@@ -377,7 +387,9 @@ SNOW_API snow_status snow_mass(const snow_grid *grid, double *vapour, double *ic
  *        hexagon about the origin, over the images that lie in the interior;
  *        exactly 0 for a symmetric crystal.
  * @return ::SNOW_OK or ::SNOW_ERROR_NULL; ::SNOW_ERROR_TOO_LARGE where
- *         snow_domain_bounds() says so. Cost: twelve reads a cell.
+ *         snow_domain_bounds() says so; ::SNOW_ERROR_UNSUPPORTED where cells are
+ *         no hexagons; what snow_cell_value() says of ::SNOW_FIELD_VALUE. Cost:
+ *         twelve reads a cell.
  */
 SNOW_API snow_status snow_symmetry_defect(const snow_grid *grid, double *defect);
 
@@ -460,8 +472,8 @@ SNOW_API snow_status snow_save_to(const snow_grid *grid, snow_writer write, void
  * @brief Makes a grid from what snow_save() wrote.
  *
  * Nothing in the data is trusted: damaged, truncated or hostile data give an
- * error, and never more memory is asked for than a few times the size of the
- * data.
+ * error, and never more memory is asked for than 64 MB and a hundred times the
+ * size of the data; options->memory_limit draws the line closer.
  *
  * @param buffer the data.
  * @param size bytes of data; bytes after the end of the grid are an error.

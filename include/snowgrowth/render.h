@@ -71,7 +71,8 @@ SNOW_API void snow_view_init(snow_view *view, size_t struct_size);
  * @return ::SNOW_OK, ::SNOW_ERROR_NULL, ::SNOW_ERROR_STRUCT_SIZE,
  *         ::SNOW_ERROR_STRUCT_TAIL; ::SNOW_ERROR_RANGE when side is out of
  *         range, or 0 and the grid is wider than 65,535 cells, or when the
- *         scale would leave its range.
+ *         scale would leave its range; ::SNOW_ERROR_UNSUPPORTED when cells are no
+ *         hexagons.
  */
 SNOW_API snow_status snow_view_fit(const snow_grid *grid, int32_t side, snow_view *view);
 
@@ -88,7 +89,8 @@ SNOW_API snow_status snow_view_fit(const snow_grid *grid, int32_t side, snow_vie
  *         ::SNOW_ERROR_STRUCT_TAIL, ::SNOW_ERROR_ENUM, ::SNOW_ERROR_RANGE,
  *         ::SNOW_ERROR_NOT_FINITE; ::SNOW_ERROR_BUFFER when capacity is too
  *         small, nothing is drawn; ::SNOW_ERROR_NOT_RECORDED for
- *         ::SNOW_PALETTE_AGE and ::SNOW_PALETTE_PHASE without freeze steps. Cost: samples² look-ups a
+ *         ::SNOW_PALETTE_AGE and ::SNOW_PALETTE_PHASE without freeze steps;
+ *         ::SNOW_ERROR_UNSUPPORTED when cells are no hexagons. Cost: samples² look-ups a
  *         pixel, and a few reads a cell; no memory is asked for.
  */
 SNOW_API snow_status snow_render(const snow_grid *grid, const snow_view *view, void *pixels, size_t capacity,

@@ -5,6 +5,7 @@
 #ifndef SNOWGROWTH_SNOWGROWTH_H
 #define SNOWGROWTH_SNOWGROWTH_H
 
+#include <snowgrowth/aggregate.h>
 #include <snowgrowth/export.h>
 #include <snowgrowth/grid.h>
 #include <snowgrowth/measure.h>

@@ -81,6 +81,8 @@ typedef enum snow_status {
     SNOW_ERROR_UNSTABLE = 400,
     /** The step count has reached its greatest value. */
     SNOW_ERROR_STEP_LIMIT = 401,
+    /** Nothing more can join: the domain is full, or one cluster is left. */
+    SNOW_ERROR_FULL = 420,
 
     /* 1xxx: Reiter's model. */
 
@@ -146,7 +148,50 @@ typedef enum snow_status {
     /** The text is not a pattern in run-length encoding. */
     SNOW_ERROR_PACKARD_RLE = 2014,
     /** The pattern has cells that are neither dead nor alive. */
-    SNOW_ERROR_PACKARD_RLE_STATES = 2015
+    SNOW_ERROR_PACKARD_RLE_STATES = 2015,
+
+    /* 3xxx: aggregation and erosion. */
+
+    /** The scene is not for this lattice. */
+    SNOW_ERROR_AGGREGATE_LATTICE = 3000,
+    /** The scene knows the contact rule of arrival only. */
+    SNOW_ERROR_AGGREGATE_CONTACT = 3001,
+    /** The chance of sticking is not in 0 < sticking <= 1. */
+    SNOW_ERROR_AGGREGATE_STICKING = 3002,
+    /** The hits are not in 1 <= hits <= 2^16, or the scene has no noise reduction. */
+    SNOW_ERROR_AGGREGATE_HITS = 3003,
+    /** The kill radius is not above 1, or the scene or engine has none. */
+    SNOW_ERROR_AGGREGATE_KILL = 3004,
+    /** A seed lies outside the domain, or there is none where one is needed. */
+    SNOW_ERROR_AGGREGATE_SEED = 3005,
+    /** An obstacle lies outside the domain, or the scene has none. */
+    SNOW_ERROR_AGGREGATE_OBSTACLE = 3006,
+    /** Two seeds, two obstacles, or a seed and an obstacle are on the same site. */
+    SNOW_ERROR_AGGREGATE_OVERLAP = 3007,
+    /** The launch is blocked: no column, or a seed or obstacle where walkers start. */
+    SNOW_ERROR_AGGREGATE_LAUNCH = 3008,
+    /** No way leads from the launch to anything that holds a walker. */
+    SNOW_ERROR_AGGREGATE_PATH = 3009,
+    /** The radii of the laboratory are not in 1 <= end < launch <= 2^20 (2^17 in space). */
+    SNOW_ERROR_AGGREGATE_RADIUS = 3010,
+    /** The sides of the box are out of their range. */
+    SNOW_ERROR_AGGREGATE_SIDES = 3011,
+    /** The interaction radius is not in 0 <= interaction <= 1024. */
+    SNOW_ERROR_AGGREGATE_INTERACTION = 3012,
+    /** The hardness is not in 1 <= least <= greatest < 2^16. */
+    SNOW_ERROR_AGGREGATE_HARDNESS = 3013,
+    /** The walls cross, leave no column between them, or lie outside the box. */
+    SNOW_ERROR_AGGREGATE_WALLS = 3014,
+    /** The number of particles is 0 or too great. */
+    SNOW_ERROR_AGGREGATE_PARTICLES = 3015,
+    /** The density is not in 0 < density <= 1/2. */
+    SNOW_ERROR_AGGREGATE_DENSITY = 3016,
+    /** The mobility exponent is not in 0 <= mobility <= 4. */
+    SNOW_ERROR_AGGREGATE_MOBILITY = 3017,
+    /** No preset has this name. */
+    SNOW_ERROR_AGGREGATE_PRESET = 3018,
+    /** The engine does not know the scene. */
+    SNOW_ERROR_AGGREGATE_ENGINE = 3019
 } snow_status;
 
 /**

@@ -76,10 +76,14 @@ snow_stop_reason snow_crystal_stops(const snow_grid *grid, const snow_stop *stop
         return SNOW_STOP_RIM;
     if (stop->tip_radius > 0 && snow_census_tip(census) >= stop->tip_radius)
         return SNOW_STOP_RADIUS;
+    if (stop->height > 0 && census->height >= stop->height)
+        return SNOW_STOP_HEIGHT;
     if (stop->frozen > 0 && snow_census_frozen(census) >= stop->frozen)
         return SNOW_STOP_FROZEN;
     if (stop->still && census->still)
         return SNOW_STOP_STILL;
+    if (census->full)
+        return SNOW_STOP_FULL;
     if (stop->max_steps >= 0 && census->steps >= stop->max_steps)
         return SNOW_STOP_STEPS;
     return SNOW_STOP_NONE;

@@ -20,7 +20,9 @@ typedef struct snow_census {
     uint64_t frozen_high; /* multiples of 2^64 */
     double tip_square;    /* greatest squared distance from the origin, exact below 2^53; −1: nothing frozen */
     snow_hexagon hexagon; /* the smallest that holds the frozen cells */
+    int64_t height;       /* of a deposit, in rows; for models with a floor */
     bool rim;   /* ice is within reach of the rim */
+    bool full;  /* nothing more can join */
     bool still; /* no cell will freeze again; looked for in step 1 and in each 64th */
 } snow_census;
 
@@ -58,8 +60,9 @@ typedef struct snow_model_operations {
     const char *name;
 
     /* Takes at least one step and at most `most`, but none after one in which a
-       condition of `stop` (NULL: none) on the crystal comes true. On failure the
-       grid stands before the step that failed. */
+       condition of `stop` (NULL: none) on the crystal comes true. Where a step can
+       take very long it may come back without one. On failure the grid stands
+       before the step that failed. */
     snow_status (*advance)(snow_grid *grid, int64_t most, const snow_stop *stop);
     /* OK, UNSUPPORTED or NOT_RECORDED. */
     snow_status (*can_read)(const snow_grid *grid, snow_field field);
@@ -67,6 +70,8 @@ typedef struct snow_model_operations {
     void (*read)(const snow_grid *grid, snow_field field, int64_t q, int64_t r, size_t count, double *values);
     /* All or nothing. */
     snow_status (*set)(snow_grid *grid, snow_field field, const snow_rect *rect, const double *values);
+    /* All that makes up the crystal, beside model and step count. NULL: the values of all cells of the domain. */
+    void (*digest)(const snow_grid *grid, snow_digest_state *state);
     void (*save)(const snow_grid *grid, snow_sink *sink);
     /* Makes a grid from what save wrote. */
     snow_status (*load)(snow_source *source, const snow_options *options, snow_grid **grid);
@@ -81,6 +86,7 @@ struct snow_grid {
     snow_team *team;      /* NULL: one thread, or the caller's loop */
     snow_domain domain;
     snow_census census;
+    bool squares; /* cells are squares, not hexagons */
     bool busy; /* a progress callback is running */
 };
 

@@ -17,7 +17,11 @@ snow_random_block snow_random_draw(uint64_t key, snow_random_block counter);
 typedef enum snow_random_use {
     SNOW_RANDOM_NOISE = 1,
     SNOW_RANDOM_CLUSTER = 2,
-    SNOW_RANDOM_SCATTER = 3
+    SNOW_RANDOM_SCATTER = 3,
+    SNOW_RANDOM_SAMPLE = 4,
+    SNOW_RANDOM_HARDNESS = 5,
+    SNOW_RANDOM_WALK = 6,
+    SNOW_RANDOM_JUMPS = 7
 } snow_random_use;
 
 /* Uniform in [0, 1), a multiple of 2^-53, for one cell. */

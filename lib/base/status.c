@@ -30,6 +30,7 @@ const char *snow_strerror(snow_status status)
     case SNOW_ERROR_READ: return "reading failed";
     case SNOW_ERROR_UNSTABLE: return "the vapour grows without bound: the diffusion is too great";
     case SNOW_ERROR_STEP_LIMIT: return "the step count has reached its greatest value";
+    case SNOW_ERROR_FULL: return "nothing more can join";
     case SNOW_ERROR_REITER_BACKGROUND: return "the background must be at least 0 and less than 1";
     case SNOW_ERROR_REITER_ADDITION: return "the addition must be between 0 and 1";
     case SNOW_ERROR_REITER_DIFFUSION:
@@ -63,6 +64,26 @@ const char *snow_strerror(snow_status status)
     case SNOW_ERROR_PACKARD_ZONE: return "a width, angle, distance or step of the zone is out of range";
     case SNOW_ERROR_PACKARD_RLE: return "the text is not a run-length encoded pattern";
     case SNOW_ERROR_PACKARD_RLE_STATES: return "the pattern has cells of more than two states";
+    case SNOW_ERROR_AGGREGATE_LATTICE: return "the scene is not for this lattice";
+    case SNOW_ERROR_AGGREGATE_CONTACT: return "the scene knows the contact rule of arrival only";
+    case SNOW_ERROR_AGGREGATE_STICKING: return "the chance of sticking must be above 0 and at most 1";
+    case SNOW_ERROR_AGGREGATE_HITS: return "the hits must be 1 to 65536, and 1 where there is no noise reduction";
+    case SNOW_ERROR_AGGREGATE_KILL: return "the kill radius must be above 1 and is for single steps of Witten and Sander";
+    case SNOW_ERROR_AGGREGATE_SEED: return "a seed lies outside the domain, or there is none";
+    case SNOW_ERROR_AGGREGATE_OBSTACLE: return "an obstacle lies outside the domain, or the scene has none";
+    case SNOW_ERROR_AGGREGATE_OVERLAP: return "seeds and obstacles must be on different sites";
+    case SNOW_ERROR_AGGREGATE_LAUNCH: return "the launch is blocked";
+    case SNOW_ERROR_AGGREGATE_PATH: return "no free path leads from the launch to the cluster";
+    case SNOW_ERROR_AGGREGATE_RADIUS: return "the end radius must be at least 1 and less than the launch radius";
+    case SNOW_ERROR_AGGREGATE_SIDES: return "the sides of the box must be between 1 and 1048576, its depth at most 1024";
+    case SNOW_ERROR_AGGREGATE_INTERACTION: return "the interaction radius must be between 0 and 1024";
+    case SNOW_ERROR_AGGREGATE_HARDNESS: return "the hardness must be between 1 and 65535, the least not above the greatest";
+    case SNOW_ERROR_AGGREGATE_WALLS: return "the walls must lie in the box with a column between them";
+    case SNOW_ERROR_AGGREGATE_PARTICLES: return "the number of particles is 0 or too great";
+    case SNOW_ERROR_AGGREGATE_DENSITY: return "the density must be above 0 and at most 1/2";
+    case SNOW_ERROR_AGGREGATE_MOBILITY: return "the mobility exponent must be between 0 and 4";
+    case SNOW_ERROR_AGGREGATE_PRESET: return "there is no preset of this name";
+    case SNOW_ERROR_AGGREGATE_ENGINE: return "the engine does not know the scene";
     }
     return "unknown status";
 }
@@ -79,6 +100,8 @@ const char *snow_stop_name(snow_stop_reason reason)
     case SNOW_STOP_TIME: return "time";
     case SNOW_STOP_CANCELLED: return "cancelled";
     case SNOW_STOP_UNSTABLE: return "unstable";
+    case SNOW_STOP_FULL: return "full";
+    case SNOW_STOP_HEIGHT: return "height";
     }
     return "unknown";
 }

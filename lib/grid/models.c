@@ -1,11 +1,13 @@
 #include "grid/models.h"
 
+#include "aggregate/model.h"
 #include "packard/model.h"
 #include "reiter/model.h"
 
 static const snow_model_operations *const models[] = {
     &snow_reiter_operations,
     &snow_packard_operations,
+    &snow_aggregate_operations,
 };
 
 enum { MODELS = sizeof models / sizeof models[0] };

@@ -100,7 +100,7 @@ static int64_t next_look(const snow_grid *grid, const snow_stop *stop)
 /* The callback runs in the caller's own floating-point state. */
 static bool is_cancelled(snow_grid *grid, const snow_stop *stop, double started, const snow_floating *floating)
 {
-    if (stop->progress == NULL || grid->census.steps % stop->progress_steps != 0)
+    if (stop->progress == NULL)
         return false;
     snow_summary summary = summarise(grid, SNOW_STOP_NONE, started);
     snow_floating again;
@@ -116,13 +116,16 @@ static snow_status run(snow_grid *grid, const snow_stop *stop, double started, c
                        snow_stop_reason *reason)
 {
     for (*reason = snow_crystal_stops(grid, stop); *reason == SNOW_STOP_NONE;) {
+        int64_t before = grid->census.steps;
         snow_status status = advance(grid, next_look(grid, stop), stop);
         if (status != SNOW_OK) {
             *reason = SNOW_STOP_UNSTABLE;
             return status;
         }
         *reason = snow_crystal_stops(grid, stop);
-        if (is_cancelled(grid, stop, started, floating) && *reason == SNOW_STOP_NONE)
+        /* A model can work without a step: then whoever waits is told more often. */
+        bool due = grid->census.steps == before || grid->census.steps % stop->progress_steps == 0;
+        if (due && is_cancelled(grid, stop, started, floating) && *reason == SNOW_STOP_NONE)
             *reason = SNOW_STOP_CANCELLED;
         if (*reason == SNOW_STOP_NONE && stop->seconds > 0 && now() - started >= stop->seconds)
             *reason = SNOW_STOP_TIME;
@@ -135,7 +138,7 @@ static SNOW_APART snow_status check_stop(const snow_stop *stop)
     if (!isfinite(stop->tip_radius) || !isfinite(stop->seconds))
         return SNOW_ERROR_NOT_FINITE;
     if (stop->max_steps < -1 || !snow_is_flag(stop->rim) || !snow_is_flag(stop->still) || stop->tip_radius < 0 ||
-        stop->seconds < 0 || stop->progress_steps < 1)
+        stop->seconds < 0 || stop->progress_steps < 1 || stop->height < 0)
         return SNOW_ERROR_RANGE;
     return SNOW_OK;
 }

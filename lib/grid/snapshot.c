@@ -1,5 +1,6 @@
 #include "base/floating.h"
 #include "base/model.h"
+#include "base/options.h"
 #include "base/stream.h"
 #include "grid/models.h"
 
@@ -61,6 +62,16 @@ static snow_status check_envelope(const unsigned char *bytes, size_t size)
     return SNOW_OK;
 }
 
+/* Data whose checksum is wrong are read only to say what is wrong with them: a wrong number in them must not ask
+   for much memory. */
+static void limit_memory(snow_options *options, size_t size)
+{
+    enum { TIMES = 64, LEAST = 1 << 20 };
+    uint64_t enough = (uint64_t)size * TIMES + LEAST;
+    if (options->memory_limit == 0 || options->memory_limit > enough)
+        options->memory_limit = enough;
+}
+
 static snow_status load(const unsigned char *bytes, size_t size, const snow_options *options, snow_grid **result)
 {
     snow_status status = check_envelope(bytes, size);
@@ -75,9 +86,17 @@ static snow_status load(const unsigned char *bytes, size_t size, const snow_opti
     if (operations == NULL)
         return intact ? SNOW_ERROR_FORMAT_VERSION : SNOW_ERROR_DAMAGED;
 
+    snow_options settled;
+    status = snow_options_settle(options, &settled);
+    if (status != SNOW_OK)
+        return status;
+    if (!intact)
+        limit_memory(&settled, size);
     snow_grid *grid = NULL;
-    status = operations->load(&source, options, &grid);
+    status = operations->load(&source, &settled, &grid);
     if (status == SNOW_OK && (!intact || snow_source_left(&source) > 0))
+        status = SNOW_ERROR_DAMAGED;
+    if (!intact && status != SNOW_ERROR_TRUNCATED)
         status = SNOW_ERROR_DAMAGED;
     return snow_grid_hand_over(grid, status, result);
 }

@@ -16,6 +16,12 @@ static void add_row(const snow_grid *grid, int32_t r, snow_digest_state *digest)
     }
 }
 
+static void add_rows(const snow_grid *grid, snow_digest_state *digest)
+{
+    for (int32_t row = 0; row < grid->domain.rows; row++)
+        add_row(grid, grid->domain.top + row, digest);
+}
+
 snow_status snow_digest(const snow_grid *grid, uint64_t *digest)
 {
     if (grid == NULL || digest == NULL)
@@ -28,8 +34,10 @@ snow_status snow_digest(const snow_grid *grid, uint64_t *digest)
     snow_digest_start(&state);
     snow_digest_add(&state, (uint64_t)grid->operations->model, 8);
     snow_digest_add(&state, (uint64_t)grid->census.steps, 8);
-    for (int32_t row = 0; row < grid->domain.rows; row++)
-        add_row(grid, grid->domain.top + row, &state);
+    if (grid->operations->digest != NULL)
+        grid->operations->digest(grid, &state);
+    else
+        add_rows(grid, &state);
     snow_floating_leave(&floating);
     *digest = snow_digest_end(&state);
     return SNOW_OK;

@@ -37,6 +37,9 @@ snow_status snow_mass(const snow_grid *grid, double *vapour, double *ice)
         return SNOW_ERROR_NULL;
     if (grid->domain.too_large)
         return SNOW_ERROR_TOO_LARGE;
+    snow_status status = grid->operations->can_read(grid, SNOW_FIELD_VALUE);
+    if (status != SNOW_OK)
+        return status;
     snow_floating floating;
     snow_floating_enter(&floating);
     long_sum vapour_sum = {0, 0};

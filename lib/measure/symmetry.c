@@ -31,6 +31,10 @@ snow_status snow_symmetry_defect(const snow_grid *grid, double *defect)
         return SNOW_ERROR_NULL;
     if (grid->domain.too_large)
         return SNOW_ERROR_TOO_LARGE;
+    snow_status status = grid->squares ? SNOW_ERROR_UNSUPPORTED
+                                       : grid->operations->can_read(grid, SNOW_FIELD_VALUE);
+    if (status != SNOW_OK)
+        return status;
     snow_floating floating;
     snow_floating_enter(&floating);
     double greatest = 0;

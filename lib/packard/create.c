@@ -55,7 +55,7 @@ static snow_status build(snow_grid *grid, const snow_packard_params *params, int
     model->rim_distance = snow_packard_rim_distance(params);
     snow_status status = build_domain(grid, params);
     if (status == SNOW_OK)
-        status = model->engine->create(grid, false, &model->cells);
+        status = model->engine->create(grid, &model->fold, &model->cells);
     return status;
 }
 

@@ -94,7 +94,7 @@ static void destroy(snow_grid *grid, void *engine)
     snow_heap_put(&grid->heap, cells);
 }
 
-static snow_status create(snow_grid *grid, bool folded, void **result)
+static snow_status create(snow_grid *grid, const packard_fold *fold, void **result)
 {
     const packard *model = packard_of(grid);
     tile_cells *cells = snow_heap_get(&grid->heap, 1, sizeof *cells);
@@ -104,7 +104,9 @@ static snow_status create(snow_grid *grid, bool folded, void **result)
     snow_tiles_plan plan = {
         .freezes = (uint8_t)model->params.rule,
         .isa = grid->options.isa,
-        .folded = folded,
+        .folded = fold->possible,
+        .fold_q = fold->q,
+        .fold_r = fold->r,
         .dated = model->params.record_freeze_steps != 0,
         .mask = packard_has_rim(model) ? mask : NULL,
         .mask_context = cells,

@@ -87,9 +87,9 @@ static snow_rect first_rectangle(const snow_grid *grid)
     return packard_is_plane(packard_of(grid)) ? (snow_rect){-8, -8, 16, 16} : grid->domain.bounds;
 }
 
-static snow_status create(snow_grid *grid, bool folded, void **result)
+static snow_status create(snow_grid *grid, const packard_fold *fold, void **result)
 {
-    (void)folded; /* every cell is kept all the same */
+    (void)fold; /* every cell is kept all the same */
     reference *cells = snow_heap_get(&grid->heap, 1, sizeof *cells);
     if (cells == NULL)
         return grid->heap.refusal;

@@ -122,10 +122,12 @@ static bool is_far_from_stop(const snow_grid *grid, const snow_stop *stop, int64
 static snow_status take_steps(snow_grid *grid, int64_t most, const snow_stop *stop)
 {
     const reiter_engine *engine = reiter_of(grid)->engine;
-    int64_t together = engine->pass_steps != NULL ? engine->pass_steps(grid) : 0;
-    if (together == 0 || together > most || !is_far_from_stop(grid, stop, together))
+    int64_t together = engine->pass_steps != NULL ? engine->pass_steps(grid, most) : 0;
+    while (together > 0 && !is_far_from_stop(grid, stop, together))
+        together = engine->pass_steps(grid, together / 2);
+    if (together == 0)
         return engine->step(grid);
-    engine->pass(grid);
+    engine->pass(grid, together);
     return SNOW_OK;
 }
 
@@ -133,8 +135,10 @@ static snow_status advance(snow_grid *grid, int64_t most, const snow_stop *stop)
 {
     snow_census *census = &grid->census;
     snow_status status = take_steps(grid, most, stop);
-    if (status == SNOW_OK && census->steps % REITER_MERGE_STEPS == 0)
+    if (status == SNOW_OK && census->steps % REITER_MERGE_STEPS == 0) {
         snow_reiter_merge_additions(grid);
+        reiter_of(grid)->engine->settle(grid);
+    }
     return status;
 }
 

@@ -57,12 +57,13 @@ static inline row_cells load_row(const element *at)
     return cells;
 }
 
-/* What flows into the cells of a row, a multiple of the quantum. The sum is
-   exact (doc/reiter.md), so its order is free. */
-static inline vector inflow(vector above_sum, row_cells row, vector below_sum, const constants *with)
+/* What flows into a cell, a multiple of the quantum, from the four cells above it
+   and the four below it: each of the two groups holds two neighbours on the
+   outside, then the cell itself and one beside it. So six neighbours and twice
+   the cell. The sums are exact (doc/reiter.md), so their order is free. */
+static inline vector inflow(vector above_group, vector below_group, vector here, const constants *with)
 {
-    vector level = row.left + row.right;
-    return flow_of(level + less_six(above_sum + below_sum, row.here, with), with);
+    return flow_of(less_eight(above_group + below_group, here, with), with);
 }
 
 /* All ones in the lanes of a chunk that a mask names, from lane `first` on. */
@@ -89,11 +90,6 @@ static inline bool any(lanes flags)
 #endif
 }
 
-static inline lanes is_beyond(vector value, vector limit)
-{
-    return ~((value <= limit) & (value >= -limit));
-}
-
 /* Where the band of a segment stands, in the field that is read and in the one that is written. */
 typedef struct band_place {
     const element *row;
@@ -116,6 +112,7 @@ typedef struct band_flow {
     vector flow[REITER_BAND];
 } band_flow;
 
+/* A row's group below is the group above of the next. */
 static inline band_flow flow_at(const band_place *band, size_t i, const constants *with)
 {
     const element *row = band->row + i;
@@ -123,15 +120,18 @@ static inline band_flow flow_at(const band_place *band, size_t i, const constant
     const element *below = band->below + i;
     size_t stride = band->stride;
     row_cells r0 = load_row(row);
+    vector g0 = (load_aligned(above) + load(above + 1)) + (r0.left + r0.here);
     row_cells r1 = load_row(row + stride);
-    vector above_sum = load_aligned(above) + load(above + 1);
-    vector f0 = inflow(above_sum, r0, r1.left + r1.here, with);
+    vector g1 = (r0.here + r0.right) + (r1.left + r1.here);
+    vector f0 = inflow(g0, g1, r0.here, with);
     row_cells r2 = load_row(row + 2 * stride);
-    vector f1 = inflow(r0.here + r0.right, r1, r2.left + r2.here, with);
+    vector g2 = (r1.here + r1.right) + (r2.left + r2.here);
+    vector f1 = inflow(g1, g2, r1.here, with);
     row_cells r3 = load_row(row + 3 * stride);
-    vector f2 = inflow(r1.here + r1.right, r2, r3.left + r3.here, with);
-    vector below_sum = load(below - 1) + load_aligned(below);
-    vector f3 = inflow(r2.here + r2.right, r3, below_sum, with);
+    vector g3 = (r2.here + r2.right) + (r3.left + r3.here);
+    vector f2 = inflow(g2, g3, r2.here, with);
+    vector g4 = (r3.here + r3.right) + (load(below - 1) + load_aligned(below));
+    vector f3 = inflow(g3, g4, r3.here, with);
     return (band_flow){{r0.here, r1.here, r2.here, r3.here}, {f0, f1, f2, f3}};
 }
 

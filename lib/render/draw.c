@@ -324,6 +324,8 @@ snow_status snow_render(const snow_grid *grid, const snow_view *view, void *pixe
     snow_status status = snow_view_read(view, &checked);
     double number;
     if (status == SNOW_OK)
+        status = snow_view_check_lattice(grid);
+    if (status == SNOW_OK)
         status = snow_cell_value(grid, snow_palette_field(checked.palette), 0, 0, &number);
     if (status != SNOW_OK)
         return status;

@@ -4,9 +4,11 @@
 #include "base/floating.h"
 #include "base/structs.h"
 
+#include <snowgrowth/aggregate.h>
 #include <snowgrowth/grid.h>
 
 #include <math.h>
+#include <stdbool.h>
 
 #define LEAST_SCALE (1.0 / 1024.0)
 #define GREATEST_SCALE 1024.0
@@ -31,6 +33,14 @@ void snow_view_init(snow_view *view, size_t struct_size)
 {
     if (view)
         snow_struct_init(view, struct_size, &default_view, sizeof default_view);
+}
+
+snow_status snow_view_check_lattice(const snow_grid *grid)
+{
+    snow_aggregate_params params;
+    snow_aggregate_params_init(&params, sizeof params);
+    bool aggregate = snow_aggregate_params_of(grid, &params) == SNOW_OK;
+    return aggregate && params.lattice != SNOW_AGGREGATE_HEXAGONAL ? SNOW_ERROR_UNSUPPORTED : SNOW_OK;
 }
 
 static snow_status copy_in(const snow_view *caller, snow_view *view)
@@ -175,6 +185,9 @@ snow_status snow_view_fit(const snow_grid *grid, int32_t side, snow_view *view)
         return status;
     if (side < 0 || side > GREATEST_SIDE)
         return SNOW_ERROR_RANGE;
+    status = snow_view_check_lattice(grid);
+    if (status != SNOW_OK)
+        return status;
 
     snow_floating_enter(&floating);
     status = fit(grid, side, &fitted);

@@ -1,0 +1,127 @@
+/* Growth probabilities, sampled by walks that change nothing. */
+#include "aggregate/chances.h"
+#include "base/floating.h"
+
+/* One walk; lost walkers send another one with the next number. */
+static snow_status probe(const snow_grid *grid, uint64_t key, uint64_t *walker, snow_site *end)
+{
+    enum { PATIENCE = 1 << 24 };
+    const aggregate *model = aggregate_of(grid);
+    for (int32_t lost = 0; lost < PATIENCE; lost++) {
+        bool ended = true;
+        snow_status status = SNOW_OK;
+        uint64_t number = (*walker)++;
+        if (model->scene->probe != NULL) {
+            status = model->scene->probe(grid, key, number, end, &ended);
+        } else {
+            snow_stream stream = snow_stream_start(key, SNOW_RANDOM_SAMPLE, number);
+            ended = model->scene->walk(grid, &stream, end);
+        }
+        if (status != SNOW_OK || ended)
+            return status;
+    }
+    return SNOW_ERROR_AGGREGATE_PATH;
+}
+
+static snow_status count_walks(const snow_grid *grid, uint64_t walks, uint64_t key, snow_heap *heap, snow_table *hits)
+{
+    bool space = aggregate_is_space(&aggregate_of(grid)->params);
+    uint64_t walker = 0;
+    for (uint64_t i = 0; i < walks; i++) {
+        snow_site end;
+        snow_status status = snow_table_reserve(hits, heap, 1);
+        if (status == SNOW_OK)
+            status = probe(grid, key, &walker, &end);
+        if (status != SNOW_OK)
+            return status;
+        ++*snow_table_at(hits, snow_site_pack(space, end));
+    }
+    return SNOW_OK;
+}
+
+static bool is_before(snow_site a, snow_site b)
+{
+    if (a.z != b.z)
+        return a.z < b.z;
+    return a.y != b.y ? a.y < b.y : a.x < b.x;
+}
+
+/* Sorts by a heap: it needs no memory and has no bad case. */
+static void sift(snow_aggregate_chance *list, size_t root, size_t count)
+{
+    for (size_t child = 2 * root + 1; child < count; root = child, child = 2 * root + 1) {
+        if (child + 1 < count && is_before(list[child].site, list[child + 1].site))
+            child++;
+        if (!is_before(list[root].site, list[child].site))
+            return;
+        snow_aggregate_chance swap = list[root];
+        list[root] = list[child];
+        list[child] = swap;
+    }
+}
+
+static void sort(snow_aggregate_chance *list, size_t count)
+{
+    for (size_t i = count / 2; i > 0; i--)
+        sift(list, i - 1, count);
+    for (size_t i = count; i > 1; i--) {
+        snow_aggregate_chance swap = list[0];
+        list[0] = list[i - 1];
+        list[i - 1] = swap;
+        sift(list, 0, i - 1);
+    }
+}
+
+static snow_status list_hits(const snow_table *hits, bool space, double walks, snow_heap *heap,
+                             snow_aggregate_chance **found)
+{
+    *found = snow_heap_get_raw(heap, (size_t)hits->used, sizeof **found);
+    if (*found == NULL)
+        return heap->refusal;
+    size_t there = 0;
+    for (uint64_t i = 0; i < hits->slots; i++) {
+        if (hits->count[i] == 0)
+            continue;
+        double chance = hits->count[i] / walks;
+        (*found)[there++] = (snow_aggregate_chance){snow_site_unpack(space, hits->key[i]), chance,
+                                                    sqrt(chance * (1 - chance) / walks)};
+    }
+    sort(*found, there);
+    return SNOW_OK;
+}
+
+static snow_status sample(const snow_grid *grid, uint64_t walks, uint64_t key, snow_heap *heap, snow_table *hits,
+                          snow_aggregate_chance **found)
+{
+    snow_floating floating;
+    snow_floating_enter(&floating);
+    snow_status status = count_walks(grid, walks, key, heap, hits);
+    if (status == SNOW_OK)
+        status = list_hits(hits, aggregate_is_space(&aggregate_of(grid)->params), (double)walks, heap, found);
+    snow_floating_leave(&floating);
+    return status;
+}
+
+snow_status snow_aggregate_sample(const snow_grid *grid, uint64_t walks, uint64_t random_seed,
+                                  snow_aggregate_chance *chances, size_t capacity, size_t *count)
+{
+    snow_status status = snow_chances_check(grid, chances, count);
+    if (status != SNOW_OK)
+        return status;
+    const aggregate *model = aggregate_of(grid);
+    if (model->scene->probe == NULL && model->scene->walk == NULL)
+        return SNOW_ERROR_UNSUPPORTED;
+    if (walks < 1 || walks > UINT32_MAX)
+        return SNOW_ERROR_RANGE;
+    if (grid->census.full)
+        return SNOW_ERROR_FULL;
+    snow_heap heap = grid->heap; /* all that is taken goes back */
+    snow_table hits = {0};
+    snow_aggregate_chance *found = NULL;
+    status = sample(grid, walks, random_seed, &heap, &hits, &found);
+    if (status == SNOW_OK)
+        status = snow_chances_copy(found, (size_t)hits.used, chances, capacity, count);
+    snow_heap_put(&heap, found);
+    snow_table_end(&hits, &heap);
+    return status;
+}

@@ -1,0 +1,71 @@
+/* Where a walker leaves an empty region that it starts in the middle of:
+   tables of the exact exit laws of the lattice's own walk.
+
+   The region of radius r is the square |x|, |y| < r, the hexagon of distances
+   below r, the cube |x|, |y|, |z| < r. The walk leaves it through a site at
+   distance r. */
+#ifndef SNOW_AGGREGATE_EXITS_H
+#define SNOW_AGGREGATE_EXITS_H
+
+#include "base/heap.h"
+
+#include <snowgrowth/aggregate.h>
+
+#include <stdbool.h>
+#include <stdint.h>
+
+/* A column of an alias table for one side of the region. An outcome is the
+   offset of a site along the side; in space the greater offset on the face
+   times 256 plus the smaller one. */
+typedef struct snow_exit {
+    uint32_t threshold;
+    uint16_t outcome[2]; /* below it, and from it on: an index costs no branch */
+} snow_exit;
+
+/* A column of one for all sides, for small regions: the way to the site. */
+typedef struct snow_exit_step {
+    uint32_t threshold;
+    int8_t way[2][3];
+} snow_exit_step;
+
+typedef struct snow_exit_table {
+    const snow_exit *exit;      /* NULL: the region is left through a circle, see source.h */
+    const snow_exit_step *step; /* NULL: it is not small */
+    uint32_t exit_mask;         /* columns less one */
+    uint32_t step_mask;
+    int32_t radius;
+} snow_exit_table;
+
+enum { SNOW_EXIT_CLASSES = 36, SNOW_EXIT_OCTAVES = 15 };
+
+/* The tables of a lattice, by ascending radius. */
+typedef struct snow_exits {
+    snow_aggregate_lattice lattice;
+    int classes; /* table[1] ... table[classes - 1]; 0 is no region */
+    int small;   /* so many classes are small: those up to this one */
+    snow_exit_table table[SNOW_EXIT_CLASSES];
+    snow_exit *exit;
+    snow_exit_step *step;
+    uint8_t class_of_octave[SNOW_EXIT_OCTAVES]; /* the class for radius 2^n */
+} snow_exits;
+
+snow_status snow_exits_start(snow_exits *exits, snow_heap *heap, snow_aggregate_lattice lattice);
+void snow_exits_end(snow_exits *exits, snow_heap *heap);
+
+/* The largest class whose radius is at most this; radius >= 1. */
+int snow_exits_class(const snow_exits *exits, int64_t radius);
+
+/* The laws themselves, for any radius from 1 on.
+   Square: chance[x], x < radius, of each site at offset x of a side:
+   4 chance[0] + 8 (chance[1] + ...) = 1. */
+void snow_exits_square(int32_t radius, double *chance);
+
+/* Hexagonal: chance[t], t < radius, of each of the six sites t steps from a
+   corner: 6 (chance[0] + ...) = 1. */
+snow_status snow_exits_hexagonal(int32_t radius, double *chance, snow_heap *heap);
+
+/* Cubic: chance[a * (a + 1) / 2 + b], b <= a < radius, of each site with
+   offsets a and b on its face. */
+snow_status snow_exits_cubic(int32_t radius, double *chance, snow_heap *heap);
+
+#endif

@@ -1,0 +1,298 @@
+#include "aggregate/growth.h"
+
+#include "aggregate/ahead.h"
+#include "aggregate/flight.h"
+
+#include "base/hexagon.h"
+
+struct snow_growth {
+    snow_growth_rules rules;
+    snow_ground ground;
+    int64_t farthest; /* squared distance, or row, of the farthest filled site or obstacle */
+    snow_ahead ahead;
+};
+
+static bool is_in_space(const snow_growth *growth)
+{
+    return growth->rules.lattice == SNOW_AGGREGATE_CUBIC;
+}
+
+static int64_t distance_of(const snow_growth *growth, snow_site site)
+{
+    int64_t x = site.x;
+    int64_t y = site.y;
+    int64_t z = site.z;
+    if (growth->rules.width > 0)
+        return is_in_space(growth) ? z : y;
+    if (growth->rules.lattice == SNOW_AGGREGATE_HEXAGONAL)
+        return snow_hexagon_square(x, y);
+    return x * x + y * y + z * z;
+}
+
+/* The least of unit * 1, 2, 3, 4, 6, 8, 12 ... above a quarter more than wanted. */
+static int64_t extent(int64_t wanted, int64_t unit)
+{
+    int64_t needed = wanted + wanted / 4;
+    int64_t size = unit;
+    while (size < needed && size + size / 2 < needed)
+        size *= 2;
+    if (size >= needed)
+        return size;
+    return size == unit ? 2 * unit : size + size / 2;
+}
+
+static int64_t whole(int64_t sites, int64_t unit)
+{
+    return (sites + unit - 1) / unit * unit;
+}
+
+static snow_plane_box plane_box(const snow_source_of_walkers *source)
+{
+    enum { UNIT = 1024, TILE = 64 };
+    int64_t up = extent(source->reach, UNIT);
+    if (source->width == 0)
+        return (snow_plane_box){(int32_t)-up, (int32_t)-up, (uint32_t)(2 * up / TILE), (uint32_t)(2 * up / TILE)};
+    int64_t left = source->lattice == SNOW_AGGREGATE_HEXAGONAL ? whole((up + 1) / 2, UNIT) : 0;
+    int64_t right = whole(source->width + 1, UNIT);
+    return (snow_plane_box){(int32_t)-left, 0, (uint32_t)((left + right) / TILE), (uint32_t)(up / TILE)};
+}
+
+static snow_space_box space_box(const snow_source_of_walkers *source)
+{
+    enum { UNIT = 64, TILE = 16 };
+    int64_t up = extent(source->reach, UNIT);
+    if (source->width == 0) {
+        uint32_t tiles = (uint32_t)(2 * up / TILE);
+        return (snow_space_box){(int32_t)-up, (int32_t)-up, (int32_t)-up, tiles, tiles, tiles};
+    }
+    return (snow_space_box){0, 0, 0, (uint32_t)(whole(source->width, UNIT) / TILE),
+                            (uint32_t)(whole(source->depth, UNIT) / TILE), (uint32_t)(up / TILE)};
+}
+
+static snow_status widen(snow_growth *growth, snow_heap *heap, const snow_source_of_walkers *source)
+{
+    snow_ground *ground = &growth->ground;
+    if (is_in_space(growth)) {
+        snow_space_box box = space_box(source);
+        return box.layers == ground->space.box.layers ? SNOW_OK : snow_space_map_widen(&ground->space, heap, box);
+    }
+    snow_plane_box box = plane_box(source);
+    return box.rows == ground->plane.box.rows ? SNOW_OK : snow_plane_map_widen(&ground->plane, heap, box);
+}
+
+/* Source and map for a cluster that reaches so far. */
+static snow_status fit(snow_growth *growth, snow_heap *heap, int64_t farthest)
+{
+    snow_source_of_walkers source = growth->ground.source;
+    snow_source_fit(&source, farthest);
+    snow_status status = SNOW_OK;
+    if (source.rim != growth->ground.source.rim) {
+        snow_ahead_pause(&growth->ahead);
+        status = widen(growth, heap, &source);
+        if (status == SNOW_OK)
+            growth->ground.source = source;
+        snow_ahead_resume(&growth->ahead);
+    }
+    if (status == SNOW_OK)
+        growth->farthest = farthest;
+    return status;
+}
+
+static snow_status add(snow_growth *growth, snow_heap *heap, snow_site site, bool obstacle)
+{
+    int64_t distance = distance_of(growth, site);
+    snow_status status = distance > growth->farthest ? fit(growth, heap, distance) : SNOW_OK;
+    if (status != SNOW_OK)
+        return status;
+    if (is_in_space(growth)) {
+        status = snow_space_map_reserve(&growth->ground.space, heap);
+        if (status == SNOW_OK)
+            snow_space_map_add(&growth->ground.space, site.x, site.y, site.z, obstacle);
+    } else {
+        status = snow_plane_map_reserve(&growth->ground.plane, heap);
+        if (status == SNOW_OK)
+            snow_plane_map_add(&growth->ground.plane, site.x, site.y, obstacle);
+    }
+    return status;
+}
+
+static snow_status add_floor(snow_growth *growth, snow_heap *heap)
+{
+    const snow_growth_rules *rules = &growth->rules;
+    int32_t depth = is_in_space(growth) ? rules->depth : 1;
+    /* Row -1 of the hexagonal vessel starts at X = 1: q = 1. */
+    int32_t first = rules->lattice == SNOW_AGGREGATE_HEXAGONAL ? 1 : 0;
+    snow_status status = SNOW_OK;
+    for (int32_t y = 0; y < depth && status == SNOW_OK; y++) {
+        for (int32_t x = first; x < first + rules->width && status == SNOW_OK; x++)
+            status = add(growth, heap, is_in_space(growth) ? (snow_site){x, y, -1} : (snow_site){x, -1, 0}, false);
+    }
+    return status;
+}
+
+/* An empty map. */
+static snow_status start_map(snow_growth *growth, snow_heap *heap)
+{
+    snow_ground *ground = &growth->ground;
+    const snow_growth_rules *rules = &growth->rules;
+    growth->farthest = rules->width > 0 ? -1 : 0;
+    snow_source_fit(&ground->source, growth->farthest);
+    snow_status status;
+    if (is_in_space(growth))
+        status = snow_space_map_start(&ground->space, heap, &ground->exits, ground->careful,
+                                      space_box(&ground->source));
+    else
+        status = snow_plane_map_start(&ground->plane, heap, &ground->exits, ground->careful,
+                                      plane_box(&ground->source));
+    return status == SNOW_OK && rules->width > 0 ? add_floor(growth, heap) : status;
+}
+
+static void end_map(snow_growth *growth, snow_heap *heap)
+{
+    if (is_in_space(growth))
+        snow_space_map_end(&growth->ground.space, heap);
+    else
+        snow_plane_map_end(&growth->ground.plane, heap);
+}
+
+snow_status snow_growth_start(snow_growth **result, snow_heap *heap, const snow_growth_rules *rules)
+{
+    snow_growth *growth = snow_heap_get(heap, 1, sizeof *growth);
+    if (growth == NULL)
+        return heap->refusal;
+    growth->rules = *rules;
+    growth->ground = (snow_ground){
+        .contact = rules->contact,
+        .stick = rules->stick,
+        .refill = snow_draws_choose(rules->isa),
+        .careful = rules->contact == SNOW_AGGREGATE_ENTRY || rules->stick < 1 || rules->has_obstacles,
+        .source = {.lattice = rules->lattice, .width = rules->width, .depth = rules->depth, .lid = rules->lid},
+    };
+    snow_status status = snow_exits_start(&growth->ground.exits, heap, rules->lattice);
+    if (status == SNOW_OK)
+        status = start_map(growth, heap);
+    if (status != SNOW_OK) {
+        snow_growth_end(growth, heap);
+        return status;
+    }
+    *result = growth;
+    return SNOW_OK;
+}
+
+void snow_growth_end(snow_growth *growth, snow_heap *heap)
+{
+    if (growth == NULL)
+        return;
+    snow_ahead_end(&growth->ahead, heap);
+    end_map(growth, heap);
+    snow_exits_end(&growth->ground.exits, heap);
+    snow_heap_put(heap, growth);
+}
+
+snow_status snow_growth_clear(snow_growth *growth, snow_heap *heap, uint64_t seed)
+{
+    end_map(growth, heap);
+    growth->rules.seed = seed;
+    return start_map(growth, heap);
+}
+
+snow_status snow_growth_fill(snow_growth *growth, snow_heap *heap, const snow_site *sites, size_t count)
+{
+    snow_status status = SNOW_OK;
+    for (size_t i = 0; i < count && status == SNOW_OK; i++)
+        status = add(growth, heap, sites[i], false);
+    return status;
+}
+
+snow_status snow_growth_obstruct(snow_growth *growth, snow_heap *heap, const snow_site *sites, size_t count)
+{
+    snow_status status = SNOW_OK;
+    for (size_t i = 0; i < count && status == SNOW_OK; i++)
+        status = add(growth, heap, sites[i], true);
+    return status;
+}
+
+/* The walkers of one call. */
+typedef struct passage {
+    snow_growth *growth;
+    snow_heap *heap;
+    const snow_growth_port *port;
+    uint64_t left; /* to fill a site */
+    snow_status status;
+} passage;
+
+/* Room is made before anyone hears of the walker: one that fails leaves no trace.
+   True: another one may come. */
+static bool land(passage *all, snow_site site)
+{
+    const snow_growth_port *port = all->port;
+    bool fills = port->fills == NULL || port->fills(port->context, site);
+    if (fills)
+        all->status = add(all->growth, all->heap, site, false);
+    if (all->status != SNOW_OK)
+        return false;
+    all->left -= fills;
+    return port->arrives(port->context, site, fills) && all->left > 0;
+}
+
+static snow_site walk(const snow_growth *growth, uint64_t key, uint64_t walker, snow_diary *diary)
+{
+    snow_draws draws;
+    snow_draws_start(&draws, growth->ground.refill, key, walker);
+    return snow_flight(&growth->ground, &draws, diary);
+}
+
+static uint64_t run_alone(passage *all, uint64_t walker)
+{
+    snow_diary none = {.question = NULL};
+    bool goes_on = true;
+    for (; goes_on; walker++)
+        goes_on = land(all, walk(all->growth, all->growth->rules.seed, walker, &none));
+    return walker;
+}
+
+static bool land_in_turn(void *context, snow_site site)
+{
+    return land(context, site);
+}
+
+static uint64_t run_ahead(passage *all, const snow_growth_crew *crew, uint64_t walker)
+{
+    snow_ahead *ahead = &all->growth->ahead;
+    ahead->ground = &all->growth->ground;
+    ahead->key = all->growth->rules.seed;
+    ahead->land = land_in_turn;
+    ahead->context = all;
+    return snow_ahead_run(ahead, crew->loop, crew->context, crew->threads, walker);
+}
+
+snow_status snow_growth_run(snow_growth *growth, snow_heap *heap, const snow_growth_crew *crew, uint64_t most,
+                            uint64_t *walker, const snow_growth_port *port)
+{
+    passage all = {growth, heap, port, most, SNOW_OK};
+    snow_status status = crew->threads < 2 ? SNOW_OK : snow_ahead_start(&growth->ahead, heap, crew->threads);
+    if (status != SNOW_OK || most == 0)
+        return status;
+    uint64_t next = crew->threads < 2 ? run_alone(&all, *walker) : run_ahead(&all, crew, *walker);
+    *walker = all.status == SNOW_OK ? next : next - 1;
+    return all.status;
+}
+
+snow_site snow_growth_probe(const snow_growth *growth, uint64_t key, uint64_t walker)
+{
+    snow_diary none = {.question = NULL};
+    return walk(growth, key, walker, &none);
+}
+
+uint64_t snow_growth_probe_jumps(const snow_growth *growth, uint64_t key, uint64_t walker)
+{
+    snow_question last;
+    snow_diary count = {&last, 0, 1};
+    walk(growth, key, walker, &count);
+    return count.count;
+}
+
+uint64_t snow_growth_repeats(const snow_growth *growth)
+{
+    return growth->ahead.repeats;
+}

@@ -1,0 +1,56 @@
+/* Where walkers come from: infinity.
+
+   A walker from infinity first meets a circle round the cluster at a uniform
+   point. On a lattice the circle must be blurred: walkers start on a circle of
+   random radius, a sum of eight uniform numbers, and at the nearest site. The
+   potential of such a source on the lattice's own walk is constant inside: the
+   terms by which the lattice's kernel differs from a logarithm are powers of z
+   and its conjugate, whose mean over a circle round them is 0, to every order;
+   what is left of the rounding is the Fourier transform of the blur at the
+   lattice's frequencies, (1/(8 pi))^8. In space the same holds for spheres.
+
+   A walker that goes far beyond comes back where Brownian motion would (through
+   an automorphism of the disc; in space with chance R / rho). There the
+   lattice's kernel is the continuum's but for cos(4 phi)/(6 pi r^2), r >= 2^14.
+
+   Over a floor between mirrors a walker from infinity first meets each row above
+   the cluster at a uniform place; higher than some widths it has forgotten
+   where it was. */
+#ifndef SNOW_AGGREGATE_SOURCE_H
+#define SNOW_AGGREGATE_SOURCE_H
+
+#include "aggregate/draws.h"
+
+#include <snowgrowth/aggregate.h>
+
+#include <stdbool.h>
+
+typedef struct snow_source_of_walkers {
+    snow_aggregate_lattice lattice;
+    int32_t width, depth, lid; /* of a vessel; width 0: none, walkers come from all around; lid negative: none */
+    int32_t rim;               /* all special sites are nearer to the origin, or lower, than this */
+    int32_t reach;             /* the same in lattice distance */
+    int64_t far;               /* beyond this a walker is sent back */
+    int64_t safe;              /* one that is no more than this clear of the cluster, in lattice distance, is not */
+} snow_source_of_walkers;
+
+/* Sets the distances for a cluster whose filled sites lie at squared distances
+   up to `farthest` (in a vessel: in rows up to `farthest`). They move in steps
+   of about one percent, so that most particles do not change them. */
+void snow_source_fit(snow_source_of_walkers *source, int64_t farthest);
+
+/* A walker from infinity. */
+snow_site snow_source_launch(const snow_source_of_walkers *source, snow_draws *draws);
+
+/* Whether a walker is beyond `far`. */
+bool snow_source_is_beyond(const snow_source_of_walkers *source, snow_site site);
+
+/* Sends back one that is: where it comes in again. */
+snow_site snow_source_return(const snow_source_of_walkers *source, snow_site site, snow_draws *draws);
+
+/* Hexagonal lattice: from the middle of an empty hexagon to a site of a blurred
+   circle inside. The lattice's kernel differs from a logarithm by terms of
+   cos(6 phi)/r^4 there: less than 10^-9 for the radii used, 257 and more. */
+snow_site snow_source_circle(snow_site site, int32_t radius, snow_draws *draws);
+
+#endif
