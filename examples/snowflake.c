@@ -1,13 +1,12 @@
 /* One crystal, from a command line to a picture. */
+#include "common/kept.h"
 #include "common/message.h"
 #include "common/output.h"
 #include "common/png.h"
 #include "common/progress.h"
 #include "common/scene.h"
 
-#include <errno.h>
 #include <stdio.h>
-#include <string.h>
 
 typedef struct files {
     const char *out;
@@ -20,41 +19,6 @@ static int list_presets(void)
     for (size_t i = 0; snow_reiter_preset_name(i); i++)
         printf("%-16s %s\n", snow_reiter_preset_name(i), snow_reiter_preset_source(i));
     return print_line("%s", "");
-}
-
-static int read_bytes(void *file, void *bytes, size_t size, size_t *got)
-{
-    *got = fread(bytes, 1, size, file);
-    return ferror((FILE *)file);
-}
-
-static int write_bytes(void *file, const void *bytes, size_t size)
-{
-    return fwrite(bytes, 1, size, file) != size;
-}
-
-static int load(const char *name, const snow_options *options, snow_grid **grid)
-{
-    FILE *file = fopen(name, "rb");
-    if (file == NULL) {
-        complain("--load: %s: %s", name, strerror(errno));
-        return EXIT_WRONG;
-    }
-    snow_status status = snow_load_from(read_bytes, file, options, grid);
-    fclose(file);
-    return status == SNOW_OK ? EXIT_DONE : complain_status(name, status);
-}
-
-static int save(const snow_grid *grid, output *file)
-{
-    if (file->name == NULL)
-        return EXIT_DONE;
-    errno = 0;
-    if (snow_save_to(grid, write_bytes, file->file) != SNOW_OK) {
-        output_complain(file);
-        return EXIT_FAILED;
-    }
-    return output_commit(file) ? EXIT_DONE : EXIT_FAILED;
 }
 
 static int draw(const snow_grid *grid, const look *appearance, output *file)
@@ -80,7 +44,7 @@ static int grow(snow_grid *grid, const scene *it, const look *appearance, output
     int exit_code = scene_run(grid, &it->stop, &summary);
     progress_clear();
     if (exit_code == EXIT_DONE)
-        exit_code = save(grid, save_file);
+        exit_code = kept_save(grid, save_file) ? EXIT_DONE : EXIT_FAILED;
     if (exit_code == EXIT_DONE)
         exit_code = draw(grid, appearance, picture_file);
     if (exit_code == EXIT_DONE)
@@ -152,7 +116,7 @@ int main(int argc, char **argv)
         return EXIT_WRONG;
     it.params.record_freeze_steps = names.save || palette_shows_age(appearance.palette);
     progress_start();
-    exit_code = names.load ? load(names.load, &it.options, &grid) : scene_create(&it, &grid);
+    exit_code = names.load ? kept_load(names.load, &it.options, &grid) : scene_create(&it, &grid);
     if (exit_code == EXIT_DONE)
         exit_code = grow_into_files(grid, &it, &appearance, &names);
     snow_destroy(grid);
