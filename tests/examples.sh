@@ -405,11 +405,13 @@ test_checkpoint() {
     done
     kill -KILL $job 2>/dev/null
     wait $job 2>/dev/null
-    check 'kill -9 while a crystal is saved: it was being written' [ -n "$part" ]
     run snowflake --load point.snow --max-steps 0
-    check 'kill -9 while a crystal is saved: the old one or the new one is there' \
-        grep -Eq 'steps=(50|60)' stdout
-    rm -f point.snow.*.part
+    if [ -n "$part" ]; then
+        check 'kill -9 while a crystal is saved: the old one or the new one is there' grep -Eq '^steps=(50|60) ' stdout
+    else
+        skip 'kill -9 while a crystal is saved' 'it was saved too soon'
+    fi
+    rm -f point.snow.*.part none.png.*.part
 }
 partly_done() {
     [ "$code" -eq 0 ] && grep -q '^panels=4 done=[1-3] ' stdout && is_png part.png && grep -q '^table: stopped' stderr

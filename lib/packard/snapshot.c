@@ -237,7 +237,7 @@ static snow_status load_row(snow_source *source, snow_grid *grid, const packard_
 /* A crystal can have come so far from 32-bit seeds in tiles, and no farther. */
 static bool is_sound_place(int64_t first, uint64_t count)
 {
-    const int64_t limit = INT64_C(1) << 40;
+    const int64_t limit = INT64_C(1) << 36;
     return first > -limit && first < limit && count < (uint64_t)limit;
 }
 
