@@ -472,8 +472,8 @@ SNOW_API snow_status snow_save_to(const snow_grid *grid, snow_writer write, void
  * @brief Makes a grid from what snow_save() wrote.
  *
  * Nothing in the data is trusted: damaged, truncated or hostile data give an
- * error, and never more memory is asked for than a few times the size of the
- * data.
+ * error, and never more memory is asked for than 64 MB and a hundred times the
+ * size of the data; options->memory_limit draws the line closer.
  *
  * @param buffer the data.
  * @param size bytes of data; bytes after the end of the grid are an error.

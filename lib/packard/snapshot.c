@@ -1,5 +1,6 @@
 /* What a saved grid of Packard's model holds: the scene, the zones, then the
    frozen cells: of the quadtree its different squares, otherwise rows of bits. */
+#include "base/hexagon.h"
 #include "packard/model.h"
 #include "packard/quadtree.h"
 
@@ -236,8 +237,62 @@ static snow_status load_row(snow_source *source, snow_grid *grid, const packard_
 /* A crystal can have come so far from 32-bit seeds in tiles, and no farther. */
 static bool is_sound_place(int64_t first, uint64_t count)
 {
-    const int64_t limit = INT64_C(1) << 40;
+    const int64_t limit = INT64_C(1) << 36;
     return first > -limit && first < limit && count < (uint64_t)limit;
+}
+
+/* The reference takes a byte and more for each cell of a rectangle, and few bytes can tell of a large one: then the
+   tiles, which give the same cells, take its place. */
+static bool is_dear(const snow_source *source, int64_t width, int64_t height)
+{
+    const int64_t cheap = INT64_C(1) << 20;
+    const int64_t cells_a_byte = 8;
+    double most = (double)cheap + (double)cells_a_byte * (double)snow_source_left(source);
+    return (double)width * (double)height > most;
+}
+
+/* On the plane the rectangle grows from the origin to the crystal, with a margin as wide as itself. */
+static bool is_dear_on_the_plane(const snow_source *source, const packard_region *crystal)
+{
+    int64_t width = snow_hexagon_magnitude(crystal->q) + crystal->width;
+    int64_t height = snow_hexagon_magnitude(crystal->r) + crystal->height;
+    int64_t side = 2 * (width > height ? width : height);
+    return is_dear(source, side, side);
+}
+
+static bool is_dear_domain(const snow_source *source, const snow_packard_params *params)
+{
+    int64_t side = 3 * (int64_t)params->radius;
+    switch (params->domain) {
+    case SNOW_PACKARD_PLANE: return false;
+    case SNOW_PACKARD_DISC:
+    case SNOW_PACKARD_HEXAGON: return is_dear(source, side, side);
+    case SNOW_PACKARD_RECTANGLE: return is_dear(source, (int64_t)params->width + params->height / 2, params->height);
+    case SNOW_PACKARD_RHOMBUS:
+    case SNOW_PACKARD_TORUS: break;
+    }
+    return is_dear(source, params->width, params->height);
+}
+
+/* In place of an engine that has no cells yet. */
+static void use_engine(snow_grid *grid, const packard_engine *engine, void *cells)
+{
+    packard *model = packard_of(grid);
+    model->engine->destroy(grid, model->cells);
+    model->engine = engine;
+    model->cells = cells;
+}
+
+static snow_status use_tiles(snow_grid *grid)
+{
+    packard *model = packard_of(grid);
+    void *cells;
+    snow_status status = snow_packard_tiles.create(grid, &model->fold, &cells);
+    if (status != SNOW_OK)
+        return status;
+    use_engine(grid, &snow_packard_tiles, cells);
+    model->params.engine = SNOW_PACKARD_ENGINE_TILES;
+    return SNOW_OK;
 }
 
 static snow_status load_rows(snow_source *source, snow_grid *grid)
@@ -253,7 +308,10 @@ static snow_status load_rows(snow_source *source, snow_grid *grid)
     uint64_t words = (width + PACKARD_WORD - 1) / PACKARD_WORD;
     if (words > 0 && height > snow_source_left(source) / sizeof(uint64_t) / words)
         return SNOW_ERROR_TRUNCATED;
+    const packard_region crystal = {q, r, (int64_t)width, (int64_t)height};
     snow_status status = SNOW_OK;
+    if (packard_of(grid)->engine == &snow_packard_reference && is_dear_on_the_plane(source, &crystal))
+        status = use_tiles(grid);
     for (int64_t y = 0; y < (int64_t)height && status == SNOW_OK; y++)
         status = load_row(source, grid, &(packard_region){q, r + y, (int64_t)width, 1});
     return status == SNOW_OK && source->truncated ? SNOW_ERROR_TRUNCATED : status;
@@ -261,15 +319,11 @@ static snow_status load_rows(snow_source *source, snow_grid *grid)
 
 static snow_status load_tree(snow_source *source, snow_grid *grid)
 {
-    packard *model = packard_of(grid);
     void *cells;
     snow_status status = snow_packard_tree_load(grid, source, &cells);
-    if (status != SNOW_OK)
-        return status;
-    model->engine->destroy(grid, model->cells);
-    model->engine = &snow_packard_quadtree;
-    model->cells = cells;
-    return SNOW_OK;
+    if (status == SNOW_OK)
+        use_engine(grid, &snow_packard_quadtree, cells);
+    return status;
 }
 
 static snow_status load_frozen(snow_source *source, const saved_scene *scene, snow_grid *grid)
@@ -296,15 +350,11 @@ snow_status snow_packard_load(snow_source *source, const snow_options *options, 
     snow_status status = load_scene(source, &scene);
     if (status != SNOW_OK)
         return status;
+    if (scene.params.engine == SNOW_PACKARD_ENGINE_REFERENCE && is_dear_domain(source, &scene.params))
+        scene.params.engine = SNOW_PACKARD_ENGINE_TILES;
     snow_grid *grid = NULL;
     status = snow_packard_build(&scene.params, options, scene.steps, &grid);
     if (status == SNOW_OK)
         status = load_all(source, &scene, grid);
-    if (status != SNOW_OK) {
-        if (grid != NULL)
-            snow_grid_end(grid);
-        return status;
-    }
-    *result = grid;
-    return SNOW_OK;
+    return snow_grid_hand_over(grid, status, result);
 }

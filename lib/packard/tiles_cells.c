@@ -1,11 +1,6 @@
 /* Cells and rows of cells, in and out. */
 #include "packard/tiles_plane.h"
 
-static uint32_t date_of(int64_t step)
-{
-    return step < UINT32_MAX ? (uint32_t)(step + 1) : UINT32_MAX;
-}
-
 /* Freezes cells of a row of a tile, and notes them in the edges that its neighbours read next. */
 static void freeze(snow_tiles *tiles, snow_tile *tile, unsigned y, uint64_t bits, int64_t step)
 {
@@ -20,7 +15,7 @@ static void freeze(snow_tiles *tiles, snow_tile *tile, unsigned y, uint64_t bits
     edges->left |= (bits & 1) << y;
     edges->right |= (bits >> (tile_columns(tile) - 1) & 1) << y;
     for (; tiles->plan.dated && bits != 0; bits &= bits - 1)
-        tile->extra->dates[y * SNOW_TILE_SIDE + (unsigned)__builtin_ctzll(bits)] = date_of(step);
+        tile->extra->dates[y * SNOW_TILE_SIDE + (unsigned)__builtin_ctzll(bits)] = tile_date(step);
 }
 
 snow_status snow_tiles_set_dated(snow_tiles *tiles, int64_t q, int64_t r, int64_t step)
@@ -108,7 +103,7 @@ static int64_t next_turn(int64_t q, int64_t r)
     return next;
 }
 
-/* The images of the cells from (q, r), as seen from the centre, as far as they lie in a line. */
+/* The images of the cells from (q, r), as seen from the centre of the symmetries, as far as they lie in a line. */
 static kept_run run_from(int64_t q, int64_t r, size_t most)
 {
     kept_run run = {.q = q, .r = r};
@@ -145,8 +140,8 @@ static size_t read_in_tile(const snow_tiles *tiles, const kept_run *run, uint64_
 
 static void folded_row(const snow_tiles *tiles, int64_t q, int64_t r, size_t count, uint64_t *bits)
 {
-    q -= tiles->plan.centre_q;
-    r -= tiles->plan.centre_r;
+    q -= tiles->plan.fold_q;
+    r -= tiles->plan.fold_r;
     for (size_t i = 0; i < count;) {
         kept_run run = run_from(q + (int64_t)i, r, count - i);
         while (run.count > 0) {
@@ -181,11 +176,11 @@ void snow_tiles_row(const snow_tiles *tiles, int64_t q, int64_t r, size_t count,
         plain_row(tiles, q, r, count, bits);
 }
 
-/* Of a folded plane only the cells q >= r >= 0, from the centre, are put. */
+/* Of a folded plane only the cells q >= r >= 0, from the centre of its symmetries, are put. */
 static size_t first_to_put(const snow_tiles *tiles, int64_t q, int64_t r, size_t count)
 {
-    int64_t from_q = q - tiles->plan.centre_q;
-    int64_t from_r = r - tiles->plan.centre_r;
+    int64_t from_q = q - tiles->plan.fold_q;
+    int64_t from_r = r - tiles->plan.fold_r;
     if (!tiles->plan.folded || from_q >= from_r)
         return tiles->plan.folded && from_r < 0 ? count : 0;
     return from_r - from_q < (int64_t)count && from_r >= 0 ? (size_t)(from_r - from_q) : count;

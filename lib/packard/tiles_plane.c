@@ -39,12 +39,18 @@ void snow_tiles_fold(int64_t *q, int64_t *r)
     *r = least;
 }
 
+/* Where no tile can be, farther out than seeds and steps lead, all tiles are one. */
+static int32_t tile_number(int64_t first_cell)
+{
+    int64_t number = first_cell / SNOW_TILE_SIDE;
+    return number > INT32_MAX ? INT32_MAX : number < INT32_MIN ? INT32_MIN : (int32_t)number;
+}
+
 tile_place snow_tiles_place(int64_t q, int64_t r)
 {
     int64_t x = wrapped(q, SNOW_TILE_SIDE);
     int64_t y = wrapped(r, SNOW_TILE_SIDE);
-    return (tile_place){(int32_t)((q - x) / SNOW_TILE_SIDE), (int32_t)((r - y) / SNOW_TILE_SIDE), (unsigned)x,
-                        (unsigned)y};
+    return (tile_place){tile_number(q - x), tile_number(r - y), (unsigned)x, (unsigned)y};
 }
 
 tile_place snow_tiles_locate(const snow_tiles *tiles, int64_t q, int64_t r)
@@ -53,8 +59,8 @@ tile_place snow_tiles_locate(const snow_tiles *tiles, int64_t q, int64_t r)
         q = wrapped(q, tiles->plan.width);
         r = wrapped(r, tiles->plan.height);
     } else if (tiles->plan.folded) {
-        q -= tiles->plan.centre_q;
-        r -= tiles->plan.centre_r;
+        q -= tiles->plan.fold_q;
+        r -= tiles->plan.fold_r;
         snow_tiles_fold(&q, &r);
     }
     return snow_tiles_place(q, r);
@@ -222,8 +228,8 @@ static void ask(const snow_tiles *tiles, const snow_tile *tile, snow_tile_mask m
 {
     memset(answer->allowed, 0xFF, sizeof answer->allowed);
     memset(answer->priority, 0, sizeof answer->priority);
-    int64_t q = (int64_t)tile->q * SNOW_TILE_SIDE + (tiles->plan.folded ? tiles->plan.centre_q : 0);
-    int64_t r = (int64_t)tile->r * SNOW_TILE_SIDE + (tiles->plan.folded ? tiles->plan.centre_r : 0);
+    int64_t q = (int64_t)tile->q * SNOW_TILE_SIDE + (tiles->plan.folded ? tiles->plan.fold_q : 0);
+    int64_t r = (int64_t)tile->r * SNOW_TILE_SIDE + (tiles->plan.folded ? tiles->plan.fold_r : 0);
     answer->any = mask != NULL && mask(context, q, r, answer->allowed, answer->priority);
 }
 

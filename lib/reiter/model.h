@@ -29,10 +29,10 @@ typedef struct reiter_engine {
     /* One step of the cells; tells newly frozen cells to snow_reiter_freeze().
        On failure nothing has changed. */
     snow_status (*step)(snow_grid *grid);
-    /* How many steps the engine would rather take together from here, 0: none;
-       and takes them. NULL: it never does. */
-    int64_t (*pass_steps)(const snow_grid *grid);
-    void (*pass)(snow_grid *grid);
+    /* How many steps, up to `most`, the engine would rather take together from
+       here, 0: none; and takes them. NULL: it never does. */
+    int64_t (*pass_steps)(const snow_grid *grid, int64_t most);
+    void (*pass)(snow_grid *grid, int64_t steps);
     /* The interior cells that it keeps. */
     const snow_domain *(*part)(const snow_grid *grid);
     /* How the engine numbers its cells, for arrays beside it: 0 to numbers − 1.
