@@ -44,8 +44,10 @@ enum {
 /* Where it was left, it is tried again for so much larger crystals. */
 static const double second_chance = 8;
 
-/* Crystals farther out are not taken from the quadtree to the tiles. */
+/* Crystals farther out are not taken from the quadtree to the tiles. So they
+   are not taken to it either, unless they would keep the tiles busy for hours. */
 static const int64_t greatest_reach = INT64_C(1) << 22;
+static const double hopeless_work = 1e15;
 
 static bool fits_tiles(const snow_grid *grid)
 {
@@ -103,7 +105,8 @@ static bool is_worth_a_trial(const snow_grid *grid, int64_t ahead)
 {
     const packard_trial *trial = &packard_of(grid)->trial;
     double work = tile_work(grid, ahead);
-    return work >= least_work && start_share * work >= start_work(grid) &&
+    bool may_come_back = work >= hopeless_work || fits_tiles(grid);
+    return work >= least_work && may_come_back && start_share * work >= start_work(grid) &&
            size_of(grid) + (double)ahead >= second_chance * trial->left_for;
 }
 
