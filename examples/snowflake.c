@@ -1,8 +1,7 @@
 /* One crystal, from a command line to a picture. */
+#include "common/crystal.h"
 #include "common/kept.h"
 #include "common/message.h"
-#include "common/output.h"
-#include "common/png.h"
 #include "common/progress.h"
 #include "common/scene.h"
 
@@ -21,22 +20,6 @@ static int list_presets(void)
     return print_line("%s", "");
 }
 
-static int draw(const snow_grid *grid, const look *appearance, output *file)
-{
-    if (file->name == NULL)
-        return EXIT_DONE;
-    snow_view view;
-    picture image;
-    snow_status status = look_view(appearance, grid, &view);
-    if (status == SNOW_OK)
-        status = picture_of_grid(&image, grid, &view);
-    if (status != SNOW_OK)
-        return complain_status("the picture", status);
-    bool written = png_write(file, &image);
-    picture_destroy(&image);
-    return written ? EXIT_DONE : EXIT_FAILED;
-}
-
 /* The grid stands; grows it and keeps what was done. */
 static int grow(snow_grid *grid, const scene *it, const look *appearance, output *picture_file, output *save_file)
 {
@@ -46,7 +29,7 @@ static int grow(snow_grid *grid, const scene *it, const look *appearance, output
     if (exit_code == EXIT_DONE)
         exit_code = kept_save(grid, save_file) ? EXIT_DONE : EXIT_FAILED;
     if (exit_code == EXIT_DONE)
-        exit_code = draw(grid, appearance, picture_file);
+        exit_code = crystal_draw(grid, appearance, picture_file);
     if (exit_code == EXIT_DONE)
         exit_code = print_line("steps=%lld frozen=%llu tip=%.6g reason=%s\n", (long long)summary.steps,
                                (unsigned long long)summary.frozen, summary.tip_radius,
