@@ -1,13 +1,11 @@
 /* One crystal, from a command line to a picture. */
+#include "common/crystal.h"
+#include "common/kept.h"
 #include "common/message.h"
-#include "common/output.h"
-#include "common/png.h"
 #include "common/progress.h"
 #include "common/scene.h"
 
-#include <errno.h>
 #include <stdio.h>
-#include <string.h>
 
 typedef struct files {
     const char *out;
@@ -22,57 +20,6 @@ static int list_presets(void)
     return print_line("%s", "");
 }
 
-static int read_bytes(void *file, void *bytes, size_t size, size_t *got)
-{
-    *got = fread(bytes, 1, size, file);
-    return ferror((FILE *)file);
-}
-
-static int write_bytes(void *file, const void *bytes, size_t size)
-{
-    return fwrite(bytes, 1, size, file) != size;
-}
-
-static int load(const char *name, const snow_options *options, snow_grid **grid)
-{
-    FILE *file = fopen(name, "rb");
-    if (file == NULL) {
-        complain("--load: %s: %s", name, strerror(errno));
-        return EXIT_WRONG;
-    }
-    snow_status status = snow_load_from(read_bytes, file, options, grid);
-    fclose(file);
-    return status == SNOW_OK ? EXIT_DONE : complain_status(name, status);
-}
-
-static int save(const snow_grid *grid, output *file)
-{
-    if (file->name == NULL)
-        return EXIT_DONE;
-    errno = 0;
-    if (snow_save_to(grid, write_bytes, file->file) != SNOW_OK) {
-        output_complain(file);
-        return EXIT_FAILED;
-    }
-    return output_commit(file) ? EXIT_DONE : EXIT_FAILED;
-}
-
-static int draw(const snow_grid *grid, const look *appearance, output *file)
-{
-    if (file->name == NULL)
-        return EXIT_DONE;
-    snow_view view;
-    picture image;
-    snow_status status = look_view(appearance, grid, &view);
-    if (status == SNOW_OK)
-        status = picture_of_grid(&image, grid, &view);
-    if (status != SNOW_OK)
-        return complain_status("the picture", status);
-    bool written = png_write(file, &image);
-    picture_destroy(&image);
-    return written ? EXIT_DONE : EXIT_FAILED;
-}
-
 /* The grid stands; grows it and keeps what was done. */
 static int grow(snow_grid *grid, const scene *it, const look *appearance, output *picture_file, output *save_file)
 {
@@ -80,9 +27,9 @@ static int grow(snow_grid *grid, const scene *it, const look *appearance, output
     int exit_code = scene_run(grid, &it->stop, &summary);
     progress_clear();
     if (exit_code == EXIT_DONE)
-        exit_code = save(grid, save_file);
+        exit_code = kept_save(grid, save_file) ? EXIT_DONE : EXIT_FAILED;
     if (exit_code == EXIT_DONE)
-        exit_code = draw(grid, appearance, picture_file);
+        exit_code = crystal_draw(grid, appearance, picture_file);
     if (exit_code == EXIT_DONE)
         exit_code = print_line("steps=%lld frozen=%llu tip=%.6g reason=%s\n", (long long)summary.steps,
                                (unsigned long long)summary.frozen, summary.tip_radius,
@@ -152,7 +99,7 @@ int main(int argc, char **argv)
         return EXIT_WRONG;
     it.params.record_freeze_steps = names.save || palette_shows_age(appearance.palette);
     progress_start();
-    exit_code = names.load ? load(names.load, &it.options, &grid) : scene_create(&it, &grid);
+    exit_code = names.load ? kept_load(names.load, &it.options, &grid) : scene_create(&it, &grid);
     if (exit_code == EXIT_DONE)
         exit_code = grow_into_files(grid, &it, &appearance, &names);
     snow_destroy(grid);

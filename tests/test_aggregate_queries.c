@@ -454,7 +454,7 @@ static void clusters_hold_all_particles(void **state)
 static void sampled_chances_state_their_error(void **state)
 {
     (void)state;
-    enum { WALKS = 1000 };
+    enum { WALKS = 200 };
     for (size_t kind = 0; kind < aggregate_kind_count; kind++) {
         snow_aggregate_params params = aggregate_kind(kind);
         snow_grid *grid = make_aggregate(&params, NULL);

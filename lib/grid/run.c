@@ -148,10 +148,9 @@ snow_status snow_stop_read(const snow_stop *caller, snow_stop *stop)
     *stop = stop_defaults;
     if (caller == NULL)
         return SNOW_OK;
-    snow_status status = snow_struct_check(caller, sizeof *stop, sizeof *stop);
+    snow_status status = snow_struct_take(stop, sizeof *stop, caller);
     if (status != SNOW_OK)
         return status;
-    snow_struct_read(stop, sizeof *stop, caller);
     snow_floating floating;
     snow_floating_enter(&floating);
     status = check_stop(stop);
