@@ -77,7 +77,7 @@ typedef enum snow_aggregate_contact {
 /** @brief What moves the walkers. */
 typedef enum snow_aggregate_engine {
     SNOW_AGGREGATE_ENGINE_AUTO = 0,  /**< The fastest that the scene has. */
-    SNOW_AGGREGATE_ENGINE_JUMPS = 1, /**< Jumps over empty regions with the exact exit laws of the lattice: Witten–Sander and line. */
+    SNOW_AGGREGATE_ENGINE_JUMPS = 1, /**< Jumps over empty regions with the exact exit laws of the lattice: Witten–Sander, laboratory and line. */
     SNOW_AGGREGATE_ENGINE_STEPS = 2  /**< Plain single steps: the reference. Another engine, other random numbers: the same law, not the same cluster. */
 } snow_aggregate_engine;
 
@@ -211,9 +211,13 @@ SNOW_API const char *snow_aggregate_preset_source(size_t index);
  *         ::SNOW_ERROR_STRUCT_TAIL; ::SNOW_ERROR_ENUM; ::SNOW_ERROR_RANGE for
  *         a flag that is neither 0 nor 1 or an option out of range;
  *         ::SNOW_ERROR_NOT_FINITE; ::SNOW_ERROR_AGGREGATE_LATTICE to
- *         ::SNOW_ERROR_AGGREGATE_ENGINE for the scene;
- *         ::SNOW_ERROR_NO_MEMORY, ::SNOW_ERROR_TOO_LARGE,
- *         ::SNOW_ERROR_MEMORY_LIMIT, ::SNOW_ERROR_THREADS, ::SNOW_ERROR_ISA.
+ *         ::SNOW_ERROR_AGGREGATE_ENGINE for the scene; ::SNOW_ERROR_TOO_LARGE
+ *         for obstacles in whose box, cluster included, there are more than 2^28
+ *         sites, or a scene that no address space holds;
+ *         ::SNOW_ERROR_NO_MEMORY, ::SNOW_ERROR_MEMORY_LIMIT,
+ *         ::SNOW_ERROR_THREADS, ::SNOW_ERROR_ISA. Cost: that of the seeds and,
+ *         with ::SNOW_AGGREGATE_ENGINE_JUMPS, some milliseconds for tables; with
+ *         obstacles, of the box round them; of all cells of a shore.
  */
 SNOW_API snow_status snow_aggregate_create(const snow_aggregate_params *params, const snow_options *options,
                                            snow_grid **grid);
