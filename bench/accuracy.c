@@ -8,12 +8,10 @@
 #include "settings.h"
 #include "truth.h"
 
-#include <errno.h>
 #include <getopt.h>
 #include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
 const char *const program_name = "snowgrowth-accuracy";
 
@@ -104,15 +102,11 @@ static void add_variants(variant_list *variants, const setting_lists *words)
 
 static void read_arguments(plan *work, int count, char **arguments)
 {
-    enum { LIST, SCENE, ENGINE, PRECISION, SYMMETRY, TOLERANCE, ISA, AT, REPEAT, CSV, DATE, HELP };
+    enum { LIST = SETTINGS, SCENE, AT, REPEAT, CSV, DATE, HELP };
     static const struct option options[] = {
         {"list", no_argument, NULL, LIST},
         {"scene", required_argument, NULL, SCENE},
-        {"engine", required_argument, NULL, ENGINE},
-        {"precision", required_argument, NULL, PRECISION},
-        {"symmetry", required_argument, NULL, SYMMETRY},
-        {"tolerance", required_argument, NULL, TOLERANCE},
-        {"isa", required_argument, NULL, ISA},
+        SETTING_OPTIONS,
         {"at", required_argument, NULL, AT},
         {"repeat", required_argument, NULL, REPEAT},
         {"csv", required_argument, NULL, CSV},
@@ -138,21 +132,6 @@ static void read_arguments(plan *work, int count, char **arguments)
         case SCENE:
             add_scene(work, optarg);
             break;
-        case ENGINE:
-            words.engines = optarg;
-            break;
-        case PRECISION:
-            words.precisions = optarg;
-            break;
-        case SYMMETRY:
-            words.symmetries = optarg;
-            break;
-        case TOLERANCE:
-            words.tolerances = optarg;
-            break;
-        case ISA:
-            words.isas = optarg;
-            break;
         case AT:
             read_marks(&work->marks, optarg);
             break;
@@ -169,7 +148,8 @@ static void read_arguments(plan *work, int count, char **arguments)
             print_help();
             exit(0);
         default:
-            exit(2); /* getopt_long has told why */
+            if (!settings_take(&words, option, optarg))
+                exit(2); /* getopt_long has told why */
         }
     }
     if (optind < count)
@@ -311,16 +291,11 @@ int main(int argument_count, char **arguments)
 {
     static plan work;
     read_arguments(&work, argument_count, arguments);
-    FILE *csv = NULL;
-    if (work.csv_path != NULL) {
-        csv = csv_open(work.csv_path, csv_columns, argument_count, arguments, work.date);
-        if (csv == NULL)
-            arguments_fail("%s: %s", work.csv_path, strerror(errno));
-    }
+    FILE *csv = csv_open(work.csv_path, csv_columns, argument_count, arguments, work.date);
     bool done = true;
     for (size_t i = 0; i < work.scene_count; i++)
         done = bench_scene(&work, &work.scenes[i], csv) && done;
-    if (csv != NULL && !csv_close(csv))
+    if (!csv_close(csv))
         arguments_fail("%s could not be written", work.csv_path);
     return done ? 0 : 1;
 }

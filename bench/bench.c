@@ -9,11 +9,9 @@
 #include "timing.h"
 #include "variant.h"
 
-#include <errno.h>
 #include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
 const char *const program_name = "snowgrowth-bench";
 
@@ -296,18 +294,13 @@ int main(int argument_count, char **arguments)
     static plan work;
     static copy_table copies;
     plan_read(&work, argument_count, arguments);
-    FILE *csv = NULL;
-    if (work.csv_path != NULL) {
-        csv = csv_open(work.csv_path, csv_columns, argument_count, arguments, work.date);
-        if (csv == NULL)
-            arguments_fail("%s: %s", work.csv_path, strerror(errno));
-    }
+    FILE *csv = csv_open(work.csv_path, csv_columns, argument_count, arguments, work.date);
     if (work.copies)
         measure_copies(&work, copies);
     bool right = true;
     for (size_t i = 0; i < work.scene_count; i++)
         right = bench_scene(&work, work.scenes[i], copies, csv) && right;
-    if (csv != NULL && !csv_close(csv))
+    if (!csv_close(csv))
         arguments_fail("%s could not be written", work.csv_path);
     return right ? 0 : 1;
 }

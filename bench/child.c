@@ -1,5 +1,6 @@
 #define _DEFAULT_SOURCE
 #include "child.h"
+#include "timing.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -48,6 +49,7 @@ static double seconds_of(struct timeval time)
 bool child_run(child_work work, const void *argument, child_report *report)
 {
     int pipe_ends[2];
+    double start = timing_now();
     fflush(stdout);
     if (pipe(pipe_ends) != 0)
         return false;
@@ -62,6 +64,7 @@ bool child_run(child_work work, const void *argument, child_report *report)
     struct rusage usage;
     if (child < 0 || wait4(child, &status, 0, &usage) != child)
         return false;
+    report->elapsed = timing_now() - start;
     report->seconds = seconds_of(usage.ru_utime) + seconds_of(usage.ru_stime);
 #ifdef __APPLE__
     report->peak = (uint64_t)usage.ru_maxrss;

@@ -9,6 +9,7 @@ enum { CHILD_ANSWER = 4096 };
 
 typedef struct child_report {
     double seconds; /* of processor time, the system's included */
+    double elapsed; /* seconds by the clock */
     uint64_t peak;  /* greatest resident memory, in bytes */
     char answer[CHILD_ANSWER]; /* the last of what it wrote to its standard output */
 } child_report;

@@ -1,9 +1,11 @@
 #include "csv.h"
 
+#include "arguments.h"
 #include "machine.h"
 
 #include <snowgrowth/snowgrowth.h>
 
+#include <errno.h>
 #include <string.h>
 
 static const char *base_name(const char *path)
@@ -14,9 +16,11 @@ static const char *base_name(const char *path)
 
 FILE *csv_open(const char *path, const char *columns, int argument_count, char *const *arguments, const char *date)
 {
+    if (path == NULL)
+        return NULL;
     FILE *csv = fopen(path, "a");
     if (csv == NULL)
-        return NULL;
+        arguments_fail("%s: %s", path, strerror(errno));
     fseek(csv, 0, SEEK_END);
     if (ftell(csv) == 0)
         fprintf(csv, "%s\n", columns);
@@ -36,6 +40,8 @@ FILE *csv_open(const char *path, const char *columns, int argument_count, char *
 
 bool csv_close(FILE *csv)
 {
+    if (csv == NULL)
+        return true;
     bool written = ferror(csv) == 0;
     return fclose(csv) == 0 && written;
 }

@@ -7,7 +7,6 @@
 #include "plain.h"
 #include "timing.h"
 
-#include <errno.h>
 #include <getopt.h>
 #include <inttypes.h>
 #include <math.h>
@@ -351,12 +350,7 @@ int main(int argument_count, char **arguments)
 {
     plan work;
     read_arguments(&work, argument_count, arguments);
-    FILE *csv = NULL;
-    if (work.csv_path != NULL) {
-        csv = csv_open(work.csv_path, csv_columns, argument_count, arguments, work.date);
-        if (csv == NULL)
-            arguments_fail("%s: %s", work.csv_path, strerror(errno));
-    }
+    FILE *csv = csv_open(work.csv_path, csv_columns, argument_count, arguments, work.date);
     bool done = true;
     size_t chosen = 0;
     printf("%-15s %-12s %9s %9s %7s  %6s %6s  %6s %6s %6s\n", "scene", "way", "ns/step", "at end", "ratio", "frozen",
@@ -370,7 +364,7 @@ int main(int argument_count, char **arguments)
             done = bench_one(&work, &places[i], &ways[k], csv) && done;
         }
     }
-    if (csv != NULL && !csv_close(csv))
+    if (!csv_close(csv))
         arguments_fail("%s could not be written", work.csv_path);
     if (chosen == 0)
         arguments_fail("there is no such scene or way; --list shows them all");

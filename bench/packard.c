@@ -35,10 +35,14 @@ typedef struct packard_scene {
     unsigned engines; /* those that end in reasonable time */
     int32_t scatter;  /* seeds in a rhombus of that side; 0: one seed */
     int32_t side;
-    int32_t seed_q; /* of the one seed; off the origin the scene cannot be folded */
+    const snow_cell *seeds; /* NULL: the origin */
+    size_t seed_count;
     const char *population; /* where it is known from elsewhere */
     bool slow;              /* only when named */
 } packard_scene;
+
+static const snow_cell aside[] = {{1, 0}};
+static const snow_cell three[] = {{0, 0}, {3, 1}, {-2, 7}};
 
 static const packard_scene scenes[] = {
     {.name = "one-4000", .what = "0100000 from one seed", .rule = "0100000", .steps = 4000,
@@ -49,10 +53,12 @@ static const packard_scene scenes[] = {
      .engines = BY_TILES | QUADTREE},
     {.name = "parity-8000", .what = "the same", .rule = "0101010", .steps = 8000, .engines = BY_TILES | QUADTREE},
     {.name = "parity-16000", .what = "the same", .rule = "0101010", .steps = 16000, .engines = BY_TILES | QUADTREE},
-    {.name = "aside-4000", .what = "0100000 from a seed off the origin: nothing is folded", .rule = "0100000",
-     .steps = 4000, .engines = BY_TILES | QUADTREE, .seed_q = 1},
-    {.name = "aside-8000", .what = "the same", .rule = "0100000", .steps = 8000, .engines = BY_TILES | QUADTREE,
-     .seed_q = 1},
+    {.name = "aside-4000", .what = "0100000 from one seed off the origin", .rule = "0100000", .steps = 4000,
+     .engines = BY_TILES | QUADTREE, .seeds = aside, .seed_count = 1},
+    {.name = "three-4000", .what = "0100000 from three seeds: no symmetry", .rule = "0100000", .steps = 4000,
+     .engines = BY_TILES | QUADTREE, .seeds = three, .seed_count = 3},
+    {.name = "three-8000", .what = "the same", .rule = "0100000", .steps = 8000, .engines = BY_TILES | QUADTREE,
+     .seeds = three, .seed_count = 3},
     {.name = "scatter", .what = "0100000 from 4000 seeds in 4096 x 4096", .rule = "0100000", .steps = 500,
      .engines = BY_TILES | BY_TREES, .scatter = 4000, .side = 4096},
     {.name = "one-2^20", .what = "0100000 from one seed", .rule = "0100000", .steps = INT64_C(1) << 20,
@@ -75,6 +81,7 @@ typedef struct plan {
     size_t count;
     unsigned engines;
     snow_isa isa;
+    int32_t threads;
     size_t rounds;
     const char *csv_path;
     const char *date;
@@ -86,6 +93,7 @@ typedef struct figure {
     char population[WORD];
     bool wrong;
     double seconds[MOST_ROUNDS];
+    double elapsed[MOST_ROUNDS];
     double peak[MOST_ROUNDS]; /* in MB */
 } figure;
 
@@ -95,20 +103,18 @@ typedef struct run {
     const packard_scene *scene;
     snow_packard_engine engine;
     snow_isa isa;
+    int32_t threads;
 } run;
 
 static snow_status make(const run *wanted, snow_grid **grid)
 {
     const packard_scene *scene = wanted->scene;
-    snow_cell seed = {scene->seed_q, 0};
     snow_packard_params params;
     snow_packard_params_init(&params, sizeof params);
     snow_status status = snow_packard_params_rule(&params, scene->rule);
-    params.seeds = &seed;
-    params.seed_count = 1;
+    params.seeds = scene->seeds;
+    params.seed_count = scene->seed_count;
     if (scene->scatter > 0) {
-        params.seeds = NULL;
-        params.seed_count = 0;
         params.scatter = scene->scatter;
         params.scatter_side = scene->side;
         params.random_seed = 1;
@@ -117,6 +123,7 @@ static snow_status make(const run *wanted, snow_grid **grid)
     snow_options options;
     snow_options_init(&options, sizeof options);
     options.isa = wanted->isa;
+    options.threads = wanted->threads;
     return status == SNOW_OK ? snow_packard_create(&params, &options, grid) : status;
 }
 
@@ -182,7 +189,7 @@ static int write_to_file(void *context, const void *bytes, size_t size)
 static void write_pattern(const packard_scene *scene, FILE *file)
 {
     snow_grid *grid = NULL;
-    snow_status status = make(&(run){scene, SNOW_PACKARD_ENGINE_TILES, SNOW_ISA_AUTO}, &grid);
+    snow_status status = make(&(run){scene, SNOW_PACKARD_ENGINE_TILES, SNOW_ISA_AUTO, 1}, &grid);
     if (status == SNOW_OK)
         status = snow_packard_save_rle_to(grid, write_to_file, file);
     if (status != SNOW_OK || fflush(file) != 0)
@@ -218,7 +225,7 @@ static bool run_engine(const plan *work, const packard_scene *scene, int engine,
         return run_bgolly(scene, engine == 0 ? "QuickLife" : "HashLife", pattern, report);
     static const snow_packard_engine ours[] = {SNOW_PACKARD_ENGINE_AUTO, SNOW_PACKARD_ENGINE_TILES,
                                                SNOW_PACKARD_ENGINE_QUADTREE, SNOW_PACKARD_ENGINE_REFERENCE};
-    run wanted = {scene, ours[engine - FIRST_OF_OURS], work->isa};
+    run wanted = {scene, ours[engine - FIRST_OF_OURS], work->isa, work->threads};
     return child_run(grow, &wanted, report);
 }
 
@@ -231,6 +238,7 @@ static void measure(const plan *work, const packard_scene *scene, const char *pa
         return;
     }
     entry->seconds[round] = report.seconds;
+    entry->elapsed[round] = report.elapsed;
     entry->peak[round] = 1e-6 * (double)report.peak;
     if (entry->engine < FIRST_OF_OURS)
         last_number(report.answer, entry->population);
@@ -267,7 +275,7 @@ static void report(const plan *work, const packard_scene *scene, figure *figures
 {
     printf("\n%s: %s, %" PRId64 " steps, population %s\n", scene->name, scene->what, scene->steps,
            figures[0].population);
-    printf("  engine    | seconds: min    median       max   ratio |  peak MB\n");
+    printf("  engine    | seconds: min    median       max   ratio |  elapsed |  peak MB\n");
     static double ratios[ENGINES];
     for (size_t i = 0; i < count; i++)
         ratios[i] = ratio_of(&figures[i], &figures[0], work->rounds);
@@ -275,15 +283,16 @@ static void report(const plan *work, const packard_scene *scene, figure *figures
         if (figures[i].wrong || figures[0].wrong)
             continue;
         double median = timing_median(figures[i].seconds, work->rounds);
+        double elapsed = timing_median(figures[i].elapsed, work->rounds);
         double peak = timing_median(figures[i].peak, work->rounds);
         double least = figures[i].seconds[0];
         double greatest = figures[i].seconds[work->rounds - 1];
-        printf("  %-9s | %12.4f %9.4f %9.4f %7.2f | %8.1f\n", engine_names[figures[i].engine], least, median, greatest,
-               ratios[i], peak);
+        printf("  %-9s | %12.4f %9.4f %9.4f %7.2f | %8.4f | %8.1f\n", engine_names[figures[i].engine], least, median,
+               greatest, ratios[i], elapsed, peak);
         if (csv != NULL)
-            fprintf(csv, "%s,%s,%s,%" PRId64 ",%s,%zu,%.4f,%.4f,%.4f,%.3f,%.1f\n", scene->name,
-                    engine_names[figures[i].engine], snow_isa_name(work->isa), scene->steps, figures[i].population,
-                    work->rounds, least, median, greatest, ratios[i], peak);
+            fprintf(csv, "%s,%s,%s,%d,%" PRId64 ",%s,%zu,%.4f,%.4f,%.4f,%.3f,%.4f,%.1f\n", scene->name,
+                    engine_names[figures[i].engine], snow_isa_name(work->isa), (int)work->threads, scene->steps,
+                    figures[i].population, work->rounds, least, median, greatest, ratios[i], elapsed, peak);
     }
     fflush(stdout);
 }
@@ -327,6 +336,7 @@ static void print_help(void)
            "  --scene NAME       only this scene; may be repeated (default: all that are not slow)\n"
            "  --engine LIST      of quicklife, hashlife, auto, tiles, quadtree, reference (default: all)\n"
            "  --isa NAME         auto, baseline, avx2 or avx512 (default: auto)\n"
+           "  --threads N        of our engines (default: 1)\n"
            "  --repeat N         rounds (default: 5)\n"
            "  --csv FILE         append the figures to FILE\n"
            "  --date TEXT        date to note in FILE\n"
@@ -380,21 +390,22 @@ static snow_isa read_isa(const char *name)
 
 static void plan_read(plan *work, int count, char **arguments)
 {
-    enum { LIST, SCENE, ENGINE, ISA, REPEAT, CSV, DATE, HELP };
+    enum { LIST, SCENE, ENGINE, ISA, THREADS, REPEAT, CSV, DATE, HELP };
     static const struct option options[] = {
         {"list", no_argument, NULL, LIST},          {"scene", required_argument, NULL, SCENE},
         {"engine", required_argument, NULL, ENGINE}, {"isa", required_argument, NULL, ISA},
-        {"repeat", required_argument, NULL, REPEAT}, {"csv", required_argument, NULL, CSV},
-        {"date", required_argument, NULL, DATE},     {"help", no_argument, NULL, HELP},
-        {NULL, 0, NULL, 0},
+        {"threads", required_argument, NULL, THREADS}, {"repeat", required_argument, NULL, REPEAT},
+        {"csv", required_argument, NULL, CSV},       {"date", required_argument, NULL, DATE},
+        {"help", no_argument, NULL, HELP},           {NULL, 0, NULL, 0},
     };
-    *work = (plan){.engines = (1u << ENGINES) - 1, .isa = SNOW_ISA_AUTO, .rounds = 5};
+    *work = (plan){.engines = (1u << ENGINES) - 1, .isa = SNOW_ISA_AUTO, .threads = 1, .rounds = 5};
     for (int option = 0; (option = getopt_long(count, arguments, "", options, NULL)) != -1;) {
         switch (option) {
         case LIST: list_scenes(); exit(0);
         case SCENE: add_scene(work, optarg); break;
         case ENGINE: work->engines = read_engines(optarg); break;
         case ISA: work->isa = read_isa(optarg); break;
+        case THREADS: work->threads = (int32_t)arguments_integer("--threads", optarg, 1, 256); break;
         case REPEAT: work->rounds = (size_t)arguments_integer("--repeat", optarg, 1, MOST_ROUNDS); break;
         case CSV: work->csv_path = optarg; break;
         case DATE: work->date = optarg; break;
@@ -418,17 +429,12 @@ int main(int argument_count, char **arguments)
         printf("bgolly is not installed: nothing to compare with\n");
         work.engines &= ~(unsigned)(QUICKLIFE | HASHLIFE);
     }
-    FILE *csv = NULL;
-    if (work.csv_path != NULL) {
-        csv = csv_open(work.csv_path, "scene,engine,isa,steps,population,rounds,seconds_min,seconds_median,seconds_max,"
-                                      "ratio,peak_mb", argument_count, arguments, work.date);
-        if (csv == NULL)
-            arguments_fail("%s: %s", work.csv_path, strerror(errno));
-    }
+    FILE *csv = csv_open(work.csv_path, "scene,engine,isa,threads,steps,population,rounds,seconds_min,seconds_median,"
+                         "seconds_max,ratio,elapsed,peak_mb", argument_count, arguments, work.date);
     bool right = true;
     for (size_t i = 0; i < work.count; i++)
         right = bench_scene(&work, work.chosen[i], csv) && right;
-    if (csv != NULL && !csv_close(csv))
+    if (!csv_close(csv))
         arguments_fail("%s could not be written", work.csv_path);
     return right ? 0 : 1;
 }

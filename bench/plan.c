@@ -44,18 +44,11 @@ static void add_quick_scenes(plan *work)
 
 void plan_read(plan *work, int count, char **arguments)
 {
-    enum {
-        LIST, SCENE, ENGINE, PRECISION, SYMMETRY, TOLERANCE, ISA, THREADS, REPEAT, MIN_SECONDS, STEPS, NO_COPY, CSV,
-        DATE, HELP
-    };
+    enum { LIST = SETTINGS, SCENE, THREADS, REPEAT, MIN_SECONDS, STEPS, NO_COPY, CSV, DATE, HELP };
     static const struct option options[] = {
         {"list", no_argument, NULL, LIST},
         {"scene", required_argument, NULL, SCENE},
-        {"engine", required_argument, NULL, ENGINE},
-        {"precision", required_argument, NULL, PRECISION},
-        {"symmetry", required_argument, NULL, SYMMETRY},
-        {"tolerance", required_argument, NULL, TOLERANCE},
-        {"isa", required_argument, NULL, ISA},
+        SETTING_OPTIONS,
         {"threads", required_argument, NULL, THREADS},
         {"repeat", required_argument, NULL, REPEAT},
         {"min-seconds", required_argument, NULL, MIN_SECONDS},
@@ -83,21 +76,6 @@ void plan_read(plan *work, int count, char **arguments)
         case SCENE:
             add_scene(work, arguments_scene(optarg));
             break;
-        case ENGINE:
-            words.engines = optarg;
-            break;
-        case PRECISION:
-            words.precisions = optarg;
-            break;
-        case SYMMETRY:
-            words.symmetries = optarg;
-            break;
-        case TOLERANCE:
-            words.tolerances = optarg;
-            break;
-        case ISA:
-            words.isas = optarg;
-            break;
         case THREADS:
             words.threads = optarg;
             break;
@@ -123,7 +101,8 @@ void plan_read(plan *work, int count, char **arguments)
             print_help();
             exit(0);
         default:
-            exit(2); /* getopt_long has told why */
+            if (!settings_take(&words, option, optarg))
+                exit(2); /* getopt_long has told why */
         }
     }
     if (optind < count)

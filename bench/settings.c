@@ -12,6 +12,18 @@ const char settings_help[] =
     "  --tolerance LIST   numbers from 0 to 1: changes up to which pieces of the plane stand still\n"
     "  --isa LIST         of auto, baseline, avx2, avx512, or all that run here\n";
 
+bool settings_take(setting_lists *words, int option, const char *text)
+{
+    switch (option) {
+    case SETTING_ENGINE: words->engines = text; return true;
+    case SETTING_PRECISION: words->precisions = text; return true;
+    case SETTING_SYMMETRY: words->symmetries = text; return true;
+    case SETTING_TOLERANCE: words->tolerances = text; return true;
+    case SETTING_ISA: words->isas = text; return true;
+    default: return false;
+    }
+}
+
 const char settings_heading[] = "engine    precision  symmetry  tolerance  isa      threads";
 
 static void add_way(variant_list *list, const variant *way)

@@ -24,8 +24,19 @@ typedef struct setting_lists {
     const char *threads;    /* whole numbers, 0: one per processor */
 } setting_lists;
 
-/* Help for the options above, for both programs. */
+/* The options that fill all of them but the threads, as getopt_long takes them, and their help. A program's own
+   options are numbered from SETTINGS on. */
+enum { SETTING_ENGINE, SETTING_PRECISION, SETTING_SYMMETRY, SETTING_TOLERANCE, SETTING_ISA, SETTINGS };
+#define SETTING_OPTIONS \
+    {"engine", required_argument, NULL, SETTING_ENGINE}, \
+    {"precision", required_argument, NULL, SETTING_PRECISION}, \
+    {"symmetry", required_argument, NULL, SETTING_SYMMETRY}, \
+    {"tolerance", required_argument, NULL, SETTING_TOLERANCE}, \
+    {"isa", required_argument, NULL, SETTING_ISA}
 extern const char settings_help[];
+
+/* Takes the text of such an option; false: it is another one. */
+bool settings_take(setting_lists *words, int option, const char *text);
 
 /* Adds each engine in each combination of the settings that it knows. A wrong word ends the program with status 2. */
 void settings_add(variant_list *list, const setting_lists *words);

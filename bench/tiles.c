@@ -11,7 +11,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 const char *const program_name = "snowgrowth-tiles-bench";
 
@@ -26,14 +25,6 @@ static const struct {
     uint8_t freezes;
 } rules[] = {{"0100000", 0x02}, {"0101010", 0x2A}, {"0100100", 0x12}};
 enum { RULES = sizeof rules / sizeof rules[0] };
-
-/* Processor time: neighbours on the machine do not count. */
-static double seconds_used(void)
-{
-    struct timespec used;
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &used);
-    return (double)used.tv_sec + 1e-9 * (double)used.tv_nsec;
-}
 
 static snow_heap start_heap(void)
 {
@@ -67,13 +58,13 @@ static double seconds_a_tile(snow_isa isa, uint8_t freezes, int64_t tiles_across
     if (list == NULL)
         arguments_fail("no memory");
     tile_pass pass = {.kernel = tiles->kernel, .freezes = freezes};
-    double start = seconds_used();
+    double start = timing_processor();
     for (size_t visits = 0; visits < VISITS; visits += count) {
         memcpy(list, tiles->changed.tile, count * sizeof *list);
         pass.kernel->advance(&pass, list, count);
         pass.phase = 1 - pass.phase;
     }
-    double seconds = seconds_used() - start;
+    double seconds = timing_processor() - start;
     free(list);
     snow_tiles_destroy(tiles);
     return seconds / VISITS;
@@ -109,13 +100,13 @@ static crystal grow(uint8_t freezes, int64_t steps, bool folded)
 {
     snow_heap heap = start_heap();
     snow_tiles *plane;
-    double start = seconds_used();
+    double start = timing_processor();
     must(snow_tiles_create(&plane, &heap, &(snow_tiles_plan){.freezes = freezes, .folded = folded}));
     must(snow_tiles_set(plane, 0, 0));
     must(snow_tiles_advance(plane, steps));
     snow_tiles_census census;
     snow_tiles_count(plane, &census);
-    double seconds = seconds_used() - start;
+    double seconds = timing_processor() - start;
     crystal grown = {seconds, census.frozen, snow_tiles_number(plane), snow_tiles_visits(plane), heap.used};
     snow_tiles_destroy(plane);
     return grown;

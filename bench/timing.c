@@ -3,11 +3,21 @@
 #include <stdlib.h>
 #include <time.h>
 
-double timing_now(void)
+static double seconds_of(clockid_t clock)
 {
     struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
+    clock_gettime(clock, &now);
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+double timing_now(void)
+{
+    return seconds_of(CLOCK_MONOTONIC);
+}
+
+double timing_processor(void)
+{
+    return seconds_of(CLOCK_PROCESS_CPUTIME_ID);
 }
 
 static int ascending(const void *left, const void *right)

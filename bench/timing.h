@@ -7,6 +7,9 @@
 /* Seconds of a clock that only runs forwards. */
 double timing_now(void);
 
+/* Seconds that this process has computed: nobody's waiting counts. */
+double timing_processor(void);
+
 /* Sorts the values, at least one, and returns their median. */
 double timing_median(double *values, size_t count);
 

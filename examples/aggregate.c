@@ -7,6 +7,7 @@
 
 #include <errno.h>
 #include <inttypes.h>
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -31,9 +32,6 @@ typedef struct job {
     files names;
     int32_t size;
     double checkpoint; /* seconds between two saves; 0: only at the end */
-    double saved_at;
-    double started_at;
-    uint64_t started_with;
 } job;
 
 static const option_choice scene_names[] = {{"witten-sander", SNOW_AGGREGATE_WITTEN_SANDER},
@@ -148,20 +146,30 @@ static bool save(const snow_grid *grid, const char *name)
     return saved;
 }
 
-/* Shows how it goes, and keeps what there is from time to time. */
-static int watch(void *context, const snow_grid *grid, const snow_summary *summary)
+/* Grows in runs of a tenth of a second: between them it shows how it goes, keeps what there is from time to time, and
+   ends when Ctrl-C or --seconds ask for it. */
+static snow_status run(const job *self, snow_grid *grid, snow_summary *summary)
 {
-    job *self = context;
-    double now = progress_clock();
-    double passed = now - self->started_at;
-    double rate = passed > 0 ? ((double)summary->steps - (double)self->started_with) / passed : 0;
-    progress_show("%llu particles, radius %.0f, %.0f a second", (unsigned long long)summary->frozen,
-                  summary->tip_radius, rate);
-    if (self->checkpoint > 0 && now - self->saved_at >= self->checkpoint) {
-        save(grid, self->names.save);
-        self->saved_at = now;
-    }
-    return progress_cancelled();
+    snow_stop stop = self->stop;
+    int64_t steps = 0;
+    snow_steps(grid, &steps);
+    double started = progress_clock();
+    double saved = started;
+    snow_status status;
+    stop.seconds = 0.1;
+    do {
+        status = snow_run(grid, &stop, summary);
+        double now = progress_clock();
+        summary->seconds = now - started;
+        progress_show("%llu particles, radius %.0f, %.0f a second", (unsigned long long)summary->frozen,
+                      summary->tip_radius, (double)(summary->steps - steps) / summary->seconds);
+        if (self->checkpoint > 0 && now - saved >= self->checkpoint) {
+            save(grid, self->names.save);
+            saved = now;
+        }
+    } while (status == SNOW_OK && summary->reason == SNOW_STOP_TIME && !progress_cancelled() &&
+             (self->stop.seconds <= 0 || summary->seconds < self->stop.seconds));
+    return status;
 }
 
 enum { PICTURE, SITES, PLY, VTK, OUTPUTS };
@@ -182,6 +190,9 @@ static bool open_files(const files *names, output *opened)
 
 static bool write_files(const job *self, const snow_grid *grid, output *opened)
 {
+    const files *names = &self->names;
+    if (!names->out && !names->sites && !names->ply && !names->vtk)
+        return true;
     particles all;
     bool written = particles_fetch(&all, grid);
     if (written && opened[PICTURE].name)
@@ -196,45 +207,46 @@ static bool write_files(const job *self, const snow_grid *grid, output *opened)
     return written;
 }
 
-/* The radius of gyration of all particles; in the cluster–cluster scene of the largest cluster. */
-static double gyration_of(const snow_grid *grid)
+/* How clusters that drift have ended: the radii of the last one, if one is left; half a box's diagonal for the tip. */
+static void measure_drifted(const snow_grid *grid, double *gyration, double *radius)
 {
-    uint64_t count = 0;
-    double radius = 0;
-    snow_aggregate_particles(grid, &count);
-    if (snow_aggregate_gyration(grid, &count, &radius, 1) == SNOW_ERROR_UNSUPPORTED) {
-        snow_aggregate_cluster one = {0, 0};
-        size_t clusters = 0;
-        snow_aggregate_clusters(grid, NULL, 0, &clusters);
-        if (clusters == 1)
-            snow_aggregate_clusters(grid, &one, 1, NULL);
-        radius = one.gyration;
-    }
-    return radius;
+    snow_aggregate_cluster one = {0, 0};
+    size_t clusters = 0;
+    snow_point low;
+    snow_point high;
+    snow_aggregate_clusters(grid, NULL, 0, &clusters);
+    if (clusters != 1 || snow_aggregate_clusters(grid, &one, 1, NULL) != SNOW_OK)
+        return;
+    *gyration = one.gyration;
+    if (snow_aggregate_bounds(grid, &low, &high) == SNOW_OK)
+        *radius = sqrt(pow(high.x - low.x, 2) + pow(high.y - low.y, 2) + pow(high.z - low.z, 2)) / 2;
 }
 
-static int grow(job *self, snow_grid *grid, output *opened)
+static int print_result(const snow_grid *grid, const snow_summary *summary)
 {
-    int64_t steps = 0;
+    uint64_t count = 0;
+    double gyration = 0;
+    double radius = summary->tip_radius;
+    snow_aggregate_particles(grid, &count);
+    if (snow_aggregate_gyration(grid, &count, &gyration, 1) == SNOW_ERROR_UNSUPPORTED)
+        measure_drifted(grid, &gyration, &radius);
+    return print_line("particles=%" PRIu64 " rg=%.6g radius=%.6g seconds=%.3f\n", count, gyration, radius,
+                      summary->seconds);
+}
+
+static int grow(const job *self, snow_grid *grid, output *opened)
+{
     snow_summary summary;
     snow_summary_init(&summary, sizeof summary);
-    snow_steps(grid, &steps);
-    self->started_with = (uint64_t)steps;
-    self->started_at = self->saved_at = progress_clock();
-    snow_status status = snow_run(grid, &self->stop, &summary);
+    snow_status status = run(self, grid, &summary);
     progress_clear();
     if (status != SNOW_OK)
         return complain_status(NULL, status);
-    int exit_code = save(grid, self->names.save) && write_files(self, grid, opened) ? EXIT_DONE : EXIT_FAILED;
-    uint64_t count = 0;
-    snow_aggregate_particles(grid, &count);
-    if (exit_code == EXIT_DONE)
-        exit_code = print_line("particles=%" PRIu64 " rg=%.6g radius=%.6g seconds=%.3f\n", count, gyration_of(grid),
-                               summary.tip_radius, summary.seconds);
-    return exit_code;
+    bool kept = save(grid, self->names.save) && write_files(self, grid, opened);
+    return kept ? print_result(grid, &summary) : EXIT_FAILED;
 }
 
-static int grow_into_files(job *self, snow_grid *grid)
+static int grow_into_files(const job *self, snow_grid *grid)
 {
     output opened[OUTPUTS] = {{0}};
     int exit_code = open_files(&self->names, opened) ? grow(self, grid, opened) : EXIT_FAILED;
@@ -249,9 +261,6 @@ static void init(job *self)
     snow_aggregate_params_init(&self->params, sizeof self->params);
     snow_options_init(&self->options, sizeof self->options);
     snow_stop_init(&self->stop, sizeof self->stop);
-    self->stop.progress = watch;
-    self->stop.progress_context = self;
-    self->stop.progress_steps = 500;
 }
 
 #define SCENE_HEADING "The scene"

@@ -53,7 +53,7 @@ int main(int argc, char **argv)
         OPTION_INTEGER("radius", "CELLS", &self.radius, INT32_MIN, INT32_MAX, "of the discs (200)"),
         OPTION_NUMBER("tip", &self.tip, "end when the arms are so long; 0: at the rim (171)"),
         OPTION_LONG("max-steps", "STEPS", &self.max_steps, 0, INT64_MAX, "end there at the latest (40000)"),
-        SHEET_ROWS(&self.picture, "480"),
+        SHEET_ROWS(&self.picture, "480", "paper"),
         OPTION_END,
     };
     program command = {"alpha_sweep",

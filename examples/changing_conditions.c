@@ -63,7 +63,7 @@ int main(int argc, char **argv)
         OPTION_NUMBER("turn", &self.turn, "the conditions change when the arms are so long (70)"),
         OPTION_INTEGER("radius", "CELLS", &self.radius, INT32_MIN, INT32_MAX, "of the discs (200)"),
         OPTION_LONG("max-steps", "STEPS", &self.max_steps, 0, INT64_MAX, "end there at the latest (10000)"),
-        SHEET_ROWS(&self.picture, "480"),
+        SHEET_ROWS(&self.picture, "480", "paper"),
         OPTION_END,
     };
     program command = {"changing_conditions",

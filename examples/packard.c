@@ -1,7 +1,6 @@
 /* One crystal of Packard's model, from a command line to a picture or a pattern. */
+#include "common/crystal.h"
 #include "common/message.h"
-#include "common/output.h"
-#include "common/png.h"
 #include "common/progress.h"
 #include "common/scene.h"
 #include "common/zone.h"
@@ -9,7 +8,6 @@
 #include <errno.h>
 #include <inttypes.h>
 #include <stdio.h>
-#include <string.h>
 
 static const option_choice packard_engine_names[] = {{"auto", SNOW_PACKARD_ENGINE_AUTO},
                                                      {"reference", SNOW_PACKARD_ENGINE_REFERENCE},
@@ -43,50 +41,51 @@ static bool take_rule(void *params, const char *text)
     return status == SNOW_OK;
 }
 
-static int read_bytes(void *file, void *bytes, size_t size, size_t *got)
+static int load(const crystal *self, snow_grid **grid)
 {
-    *got = fread(bytes, 1, size, file);
-    return ferror((FILE *)file);
-}
-
-static int write_bytes(void *file, const void *bytes, size_t size)
-{
-    return fwrite(bytes, 1, size, file) != size;
+    FILE *file = file_open("load-rle", self->load);
+    if (file == NULL)
+        return EXIT_WRONG;
+    snow_status status = snow_packard_load_rle_from(file_read, file, &self->params, &self->options, grid);
+    fclose(file);
+    return status == SNOW_OK ? EXIT_DONE : complain_status(self->load, status);
 }
 
 static int create(const crystal *self, snow_grid **grid)
 {
-    snow_status status;
-    if (self->load == NULL) {
-        status = snow_packard_create(&self->params, &self->options, grid);
-    } else {
-        FILE *file = fopen(self->load, "rb");
-        if (file == NULL) {
-            complain("--load-rle: %s: %s", self->load, strerror(errno));
-            return EXIT_WRONG;
-        }
-        status = snow_packard_load_rle_from(read_bytes, file, &self->params, &self->options, grid);
-        fclose(file);
-    }
-    if (status == SNOW_OK)
-        status = zones_add(&self->zones, *grid);
-    return status == SNOW_OK ? EXIT_DONE : complain_status(self->load, status);
+    snow_status status = snow_packard_create(&self->params, &self->options, grid);
+    return status == SNOW_OK ? EXIT_DONE : complain_status(NULL, status);
 }
 
-static int draw(const snow_grid *grid, const look *appearance, output *file)
+static int add_zones(const crystal *self, snow_grid *grid)
 {
-    if (file->name == NULL)
-        return EXIT_DONE;
-    snow_view view;
-    picture image;
-    snow_status status = look_view(appearance, grid, &view);
-    if (status == SNOW_OK)
-        status = picture_of_grid(&image, grid, &view);
+    snow_status status = zones_add(&self->zones, grid);
+    return status == SNOW_OK ? EXIT_DONE : complain_status("--zone", status);
+}
+
+/* Takes the steps, a fraction of a second at a time; Ctrl-C ends them early. */
+static int take_steps(snow_grid *grid, int64_t steps)
+{
+    snow_stop stop;
+    snow_summary summary;
+    int64_t done = 0;
+    snow_stop_init(&stop, sizeof stop);
+    snow_summary_init(&summary, sizeof summary);
+    snow_status status = snow_steps(grid, &done);
+    stop.max_steps = steps < INT64_MAX - done ? done + steps : INT64_MAX;
+    stop.rim = stop.still = 0;
+    stop.seconds = 0.1;
+    do {
+        if (status == SNOW_OK)
+            status = snow_run(grid, &stop, &summary);
+        progress_show("step %" PRId64 ", %" PRIu64 " frozen cells", summary.steps, summary.frozen);
+    } while (status == SNOW_OK && summary.reason == SNOW_STOP_TIME && !progress_cancelled());
+    progress_clear();
     if (status != SNOW_OK)
-        return complain_status("the picture", status);
-    bool written = png_write(file, &image);
-    picture_destroy(&image);
-    return written ? EXIT_DONE : EXIT_FAILED;
+        return complain_status(NULL, status);
+    if (summary.reason == SNOW_STOP_TIME)
+        complain("stopped after step %" PRId64, summary.steps);
+    return EXIT_DONE;
 }
 
 static int save(const snow_grid *grid, output *file)
@@ -94,7 +93,7 @@ static int save(const snow_grid *grid, output *file)
     if (file->name == NULL)
         return EXIT_DONE;
     errno = 0;
-    snow_status status = snow_packard_save_rle_to(grid, write_bytes, file->file);
+    snow_status status = snow_packard_save_rle_to(grid, file_write, file->file);
     if (status == SNOW_ERROR_WRITE) {
         output_complain(file);
         return EXIT_FAILED;
@@ -139,30 +138,31 @@ static int print_result(const snow_grid *grid)
                       snow_packard_engine_name(engine));
 }
 
-static int write_files(const crystal *self, const snow_grid *grid)
+/* The grid stands; grows it and keeps what was done. */
+static int grow(const crystal *self, snow_grid *grid, output *picture_file, output *pattern_file)
+{
+    int exit_code = add_zones(self, grid);
+    if (exit_code == EXIT_DONE)
+        exit_code = take_steps(grid, self->steps);
+    if (exit_code == EXIT_DONE)
+        exit_code = save(grid, pattern_file);
+    if (exit_code == EXIT_DONE)
+        exit_code = crystal_draw(grid, &self->appearance, picture_file);
+    return exit_code == EXIT_DONE ? print_result(grid) : exit_code;
+}
+
+static int grow_into_files(const crystal *self, snow_grid *grid)
 {
     output picture_file, pattern_file;
     int exit_code = EXIT_FAILED;
     if (!output_open(&picture_file, self->out))
         return EXIT_FAILED;
     if (output_open(&pattern_file, self->rle)) {
-        exit_code = save(grid, &pattern_file);
-        if (exit_code == EXIT_DONE)
-            exit_code = draw(grid, &self->appearance, &picture_file);
+        exit_code = grow(self, grid, &picture_file, &pattern_file);
         output_discard(&pattern_file);
     }
     output_discard(&picture_file);
     return exit_code;
-}
-
-/* Files are opened when the crystal has grown: Ctrl-C leaves none behind. */
-static int grow(const crystal *self, snow_grid *grid)
-{
-    snow_status status = snow_step(grid, self->steps);
-    if (status != SNOW_OK)
-        return complain_status(NULL, status);
-    int exit_code = write_files(self, grid);
-    return exit_code == EXIT_DONE ? print_result(grid) : exit_code;
 }
 
 int main(int argc, char **argv)
@@ -201,7 +201,8 @@ int main(int argc, char **argv)
     };
     program command = {"packard",
                        "Grows one crystal by a Boolean rule: a cell with k frozen neighbours freezes if the rule's\n"
-                       "digit d_k is 1.",
+                       "digit d_k is 1. Ctrl-C ends it early; files and line are then those of the crystal as it\n"
+                       "stands.",
                        "packard --rule 0110000 --zone corners:7-8 --steps 30 --palette age --out fig5c.png", rows};
     snow_grid *grid = NULL;
     int exit_code;
@@ -209,9 +210,10 @@ int main(int argc, char **argv)
     if (!options_read(&command, argc, argv, &exit_code))
         return exit_code;
     self.params.record_freeze_steps = self.out != NULL && palette_shows_age(self.appearance.palette);
-    exit_code = create(&self, &grid);
+    progress_start();
+    exit_code = self.load != NULL ? load(&self, &grid) : create(&self, &grid);
     if (exit_code == EXIT_DONE)
-        exit_code = grow(&self, grid);
+        exit_code = grow_into_files(&self, grid);
     snow_destroy(grid);
     return exit_code;
 }

@@ -52,7 +52,7 @@ static bool set_panels(sheet *self)
         it->create = create;
         it->crystal = shown;
         it->stop.max_steps = shown->steps;
-        snprintf(it->caption, sizeof it->caption, "%s: %s%s%s, %d steps", shown->name, shown->rule,
+        snprintf(it->caption, sizeof it->caption, "%s: %s%s%s, step %d", shown->name, shown->rule,
                  shown->zone != NULL ? ", " : "", shown->zone != NULL ? shown->zone : "", (int)shown->steps);
     }
     return true;
@@ -63,7 +63,7 @@ int main(int argc, char **argv)
     sheet it;
     sheet_init(&it);
     it.palette = SNOW_PALETTE_INK;
-    option_row rows[] = {SHEET_ROWS(&it, "320"), OPTION_END};
+    option_row rows[] = {SHEET_ROWS(&it, "320", "ink"), OPTION_END};
     program command = {"packard_figures",
                        "Draws figs. 3 to 6 of the paper in which Liu Shida and Zhang Ziguo grew snowflakes by\n"
                        "Boolean rules, some of them with zones.",

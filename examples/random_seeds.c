@@ -58,7 +58,7 @@ int main(int argc, char **argv)
         OPTION_INTEGER("count", "COUNT", &self.count, 1, 64, "columns, a random seed each (4)"),
         OPTION_INTEGER("radius", "CELLS", &self.radius, INT32_MIN, INT32_MAX, "of the discs (200)"),
         OPTION_LONG("max-steps", "STEPS", &self.max_steps, 0, INT64_MAX, "end there at the latest (10000)"),
-        SHEET_ROWS(&self.picture, "320"),
+        SHEET_ROWS(&self.picture, "320", "paper"),
         OPTION_END,
     };
     program command = {"random_seeds",

@@ -1,13 +1,11 @@
 /* One crystal, from a command line to a picture. */
+#include "common/crystal.h"
 #include "common/message.h"
-#include "common/output.h"
-#include "common/png.h"
 #include "common/progress.h"
 #include "common/scene.h"
 
 #include <errno.h>
 #include <stdio.h>
-#include <string.h>
 
 typedef struct files {
     const char *out;
@@ -22,25 +20,12 @@ static int list_presets(void)
     return print_line("%s", "");
 }
 
-static int read_bytes(void *file, void *bytes, size_t size, size_t *got)
-{
-    *got = fread(bytes, 1, size, file);
-    return ferror((FILE *)file);
-}
-
-static int write_bytes(void *file, const void *bytes, size_t size)
-{
-    return fwrite(bytes, 1, size, file) != size;
-}
-
 static int load(const char *name, const snow_options *options, snow_grid **grid)
 {
-    FILE *file = fopen(name, "rb");
-    if (file == NULL) {
-        complain("--load: %s: %s", name, strerror(errno));
+    FILE *file = file_open("load", name);
+    if (file == NULL)
         return EXIT_WRONG;
-    }
-    snow_status status = snow_load_from(read_bytes, file, options, grid);
+    snow_status status = snow_load_from(file_read, file, options, grid);
     fclose(file);
     return status == SNOW_OK ? EXIT_DONE : complain_status(name, status);
 }
@@ -50,27 +35,11 @@ static int save(const snow_grid *grid, output *file)
     if (file->name == NULL)
         return EXIT_DONE;
     errno = 0;
-    if (snow_save_to(grid, write_bytes, file->file) != SNOW_OK) {
+    if (snow_save_to(grid, file_write, file->file) != SNOW_OK) {
         output_complain(file);
         return EXIT_FAILED;
     }
     return output_commit(file) ? EXIT_DONE : EXIT_FAILED;
-}
-
-static int draw(const snow_grid *grid, const look *appearance, output *file)
-{
-    if (file->name == NULL)
-        return EXIT_DONE;
-    snow_view view;
-    picture image;
-    snow_status status = look_view(appearance, grid, &view);
-    if (status == SNOW_OK)
-        status = picture_of_grid(&image, grid, &view);
-    if (status != SNOW_OK)
-        return complain_status("the picture", status);
-    bool written = png_write(file, &image);
-    picture_destroy(&image);
-    return written ? EXIT_DONE : EXIT_FAILED;
 }
 
 /* The grid stands; grows it and keeps what was done. */
@@ -82,7 +51,7 @@ static int grow(snow_grid *grid, const scene *it, const look *appearance, output
     if (exit_code == EXIT_DONE)
         exit_code = save(grid, save_file);
     if (exit_code == EXIT_DONE)
-        exit_code = draw(grid, appearance, picture_file);
+        exit_code = crystal_draw(grid, appearance, picture_file);
     if (exit_code == EXIT_DONE)
         exit_code = print_line("steps=%lld frozen=%llu tip=%.6g reason=%s\n", (long long)summary.steps,
                                (unsigned long long)summary.frozen, summary.tip_radius,

@@ -106,7 +106,7 @@ int main(int argc, char **argv)
         OPTION_LONG("max-steps", "STEPS", &self.max_steps, 0, INT64_MAX, "end there (10000; with --polish 3000)"),
         OPTION_FLAG("polish", &self.polish, "the rows of the report of Połuszejko and Grabiński"),
         OPTION_TEXT("csv", "FILE", &self.csv, "how each crystal ended, as a table of numbers"),
-        SHEET_ROWS(&self.picture, "320"),
+        SHEET_ROWS(&self.picture, "320", "paper"),
         OPTION_END,
     };
     program command = {"table",

@@ -379,11 +379,20 @@ test_interrupt() {
     check 'Ctrl-C: the picture' is_png stopped.png
     run snowflake --load stopped.snow --max-steps 0
     check 'Ctrl-C: the crystal' printed "$result_line"
+    interrupt 1 packard --steps 100000000 --engine reference --size 100 --out grown.png --rle grown.rle
+    check 'packard, Ctrl-C: the message' grep -q '^packard: stopped after step [0-9]*$' stderr
+    check 'packard, Ctrl-C: the picture' is_png grown.png
+    mv stdout stopped
+    run packard --load-rle grown.rle --steps 0
+    check 'packard, Ctrl-C: the pattern' same_population stopped stdout
     for seconds in 1 4 16; do # a busy machine needs longer for the first panels
         interrupt $seconds table --betas 0.9,0.05 --gammas 1,0.0001 --max-steps 100000000000 --panel 40 --out part.png
         ! partly_done || break
     done
     check 'Ctrl-C: the finished panels' partly_done
+}
+same_population() {
+    succeeded && [ "$(cut -d ' ' -f 1,2 "$1")" = "$(cut -d ' ' -f 1,2 "$2")" ]
 }
 partly_done() {
     [ "$code" -eq 0 ] && grep -q '^panels=4 done=[1-3] ' stdout && is_png part.png && grep -q '^table: stopped' stderr

@@ -138,6 +138,47 @@ static void numbers_out_of_range_are_refused(void **state)
     REFUSED(SNOW_ERROR_AGGREGATE_DENSITY, free_particles, density, 0);
     REFUSED(SNOW_ERROR_AGGREGATE_DENSITY, free_particles, density, 0.51);
     REFUSED(SNOW_ERROR_AGGREGATE_MOBILITY, free_particles, mobility, -1);
+    REFUSED(SNOW_ERROR_AGGREGATE_MOBILITY, free_particles, mobility, 4.5);
+    REFUSED(SNOW_ERROR_NOT_FINITE, free_particles, density, NAN);
+    REFUSED(SNOW_ERROR_NOT_FINITE, free_particles, mobility, INFINITY);
+    REFUSED(SNOW_ERROR_NOT_FINITE, point, kill_radius, NAN);
+    REFUSED(SNOW_ERROR_AGGREGATE_RADIUS, SNOW_AGGREGATE_LABORATORY, launch_radius, (1 << 20) + 1);
+    REFUSED(SNOW_ERROR_AGGREGATE_WALLS, SNOW_AGGREGATE_CHIMNEY, wall_left, -1);
+    REFUSED(SNOW_ERROR_AGGREGATE_WALLS, SNOW_AGGREGATE_CHIMNEY, wall_right_top, 256);
+}
+
+/* Members that are wrong together. */
+static void members_that_do_not_fit_are_refused(void **state)
+{
+    (void)state;
+    snow_aggregate_params params = aggregate_scene(SNOW_AGGREGATE_ELECTROLYSIS);
+    params.launch_first = 20;
+    params.launch_last = 19;
+    assert_refused(SNOW_ERROR_AGGREGATE_LAUNCH, &params);
+    params = aggregate_scene(SNOW_AGGREGATE_LINE);
+    params.periodic = 1;
+    params.engine = SNOW_AGGREGATE_ENGINE_JUMPS;
+    assert_refused(SNOW_ERROR_AGGREGATE_ENGINE, &params);
+    params = aggregate_scene(SNOW_AGGREGATE_WITTEN_SANDER);
+    params.engine = SNOW_AGGREGATE_ENGINE_STEPS;
+    params.kill_radius = 1;
+    assert_refused(SNOW_ERROR_AGGREGATE_KILL, &params);
+    params.engine = SNOW_AGGREGATE_ENGINE_JUMPS;
+    params.kill_radius = 2;
+    assert_refused(SNOW_ERROR_AGGREGATE_KILL, &params);
+    params = aggregate_scene(SNOW_AGGREGATE_LINE);
+    params.lattice = SNOW_AGGREGATE_CUBIC;
+    params.depth = 0;
+    assert_refused(SNOW_ERROR_AGGREGATE_SIDES, &params);
+    params.depth = 1025;
+    assert_refused(SNOW_ERROR_AGGREGATE_SIDES, &params);
+    params.depth = 64;
+    params.width = 1 << 19;
+    assert_refused(SNOW_ERROR_AGGREGATE_SIDES, &params);
+    params = aggregate_scene(SNOW_AGGREGATE_LABORATORY);
+    params.lattice = SNOW_AGGREGATE_CUBIC;
+    params.launch_radius = (1 << 17) + 1;
+    assert_refused(SNOW_ERROR_AGGREGATE_RADIUS, &params);
 }
 
 static void seeds_and_obstacles_are_checked(void **state)
@@ -173,6 +214,41 @@ static void seeds_and_obstacles_are_checked(void **state)
     params.seeds = wall;
     params.seed_count = 1;
     assert_refused(SNOW_ERROR_AGGREGATE_SEED, &params);
+    params = aggregate_scene(SNOW_AGGREGATE_ELECTROLYSIS);
+    params.obstacles = wall;
+    params.obstacle_count = 1;
+    assert_refused(SNOW_ERROR_AGGREGATE_OBSTACLE, &params);
+    params = aggregate_scene(SNOW_AGGREGATE_LINE);
+    static const snow_site beside[] = {{256, 3, 0}};
+    params.obstacles = beside;
+    params.obstacle_count = 1;
+    assert_refused(SNOW_ERROR_AGGREGATE_OBSTACLE, &params);
+    params.seeds = beside;
+    params.seed_count = 1;
+    params.obstacle_count = 0;
+    assert_refused(SNOW_ERROR_AGGREGATE_SEED, &params);
+}
+
+/* Counts beyond every list: they are refused before the list is read. */
+static void too_many_seeds_are_refused(void **state)
+{
+    (void)state;
+    static const snow_site one = {0, 0, 0};
+    static const size_t counts[] = {((size_t)1 << 26) + 1, SIZE_MAX};
+    for (size_t i = 0; i < COUNT_OF(counts); i++) {
+        snow_aggregate_params params = aggregate_scene(SNOW_AGGREGATE_WITTEN_SANDER);
+        params.seeds = &one;
+        params.seed_count = counts[i];
+        assert_refused(SNOW_ERROR_AGGREGATE_PARTICLES, &params);
+        params.seed_count = 1;
+        params.obstacles = &one;
+        params.obstacle_count = counts[i];
+        assert_refused(SNOW_ERROR_AGGREGATE_PARTICLES, &params);
+    }
+    snow_aggregate_params params = aggregate_scene(SNOW_AGGREGATE_WITTEN_SANDER);
+    params.seeds = &one; /* a list without sites, where a seed is needed */
+    params.seed_count = 0;
+    assert_refused(SNOW_ERROR_AGGREGATE_SEED, &params);
 }
 
 static void a_cluster_that_is_walled_in_is_refused(void **state)
@@ -202,6 +278,78 @@ static void a_blocked_launch_is_refused(void **state)
     params.obstacles = on_circle;
     params.obstacle_count = 1;
     assert_refused(SNOW_ERROR_AGGREGATE_LAUNCH, &params);
+    static const snow_site at_the_end[] = {{0, 90, 0}};
+    params.seeds = at_the_end;
+    params.seed_count = 1;
+    params.obstacle_count = 0;
+    assert_refused(SNOW_ERROR_AGGREGATE_LAUNCH, &params);
+
+    params = aggregate_scene(SNOW_AGGREGATE_LINE);
+    static const snow_site in_top_row[] = {{5, 255, 0}};
+    params.seeds = in_top_row;
+    params.seed_count = 1;
+    assert_refused(SNOW_ERROR_AGGREGATE_LAUNCH, &params);
+
+    static const snow_site row[] = {{4, 9, 0}, {5, 9, 0}, {6, 9, 0}};
+    params = aggregate_scene(SNOW_AGGREGATE_ELECTROLYSIS);
+    params.height = 10;
+    params.launch_first = 4;
+    params.launch_last = 6;
+    params.seeds = row;
+    params.seed_count = 3;
+    assert_refused(SNOW_ERROR_AGGREGATE_LAUNCH, &params);
+    params.launch_last = 7; /* one is free */
+    snow_grid *grid = make_aggregate(&params, NULL);
+    assert_ok(snow_step(grid, 1));
+    snow_destroy(grid);
+
+    static const snow_site foot[] = {{1, 0, 0}, {2, 0, 0}};
+    params = aggregate_scene(SNOW_AGGREGATE_CHIMNEY);
+    params.wall_right = params.wall_right_top = 3;
+    params.seeds = foot;
+    params.seed_count = 2;
+    assert_refused(SNOW_ERROR_AGGREGATE_LAUNCH, &params);
+}
+
+/* A roof of obstacles from wall to wall. */
+static void a_roof_over_the_vessel_is_refused(void **state)
+{
+    (void)state;
+    snow_site roof[64];
+    for (int lattice = SNOW_AGGREGATE_SQUARE; lattice <= SNOW_AGGREGATE_CUBIC; lattice++) {
+        bool space = lattice == SNOW_AGGREGATE_CUBIC;
+        bool lean = lattice == SNOW_AGGREGATE_HEXAGONAL;
+        snow_aggregate_params params = aggregate_scene(SNOW_AGGREGATE_LINE);
+        params.lattice = (snow_aggregate_lattice)lattice;
+        params.width = 8;
+        params.depth = 8;
+        params.height = 12;
+        params.obstacles = roof;
+        params.obstacle_count = space ? 64 : 8;
+        for (int32_t i = 0; i < 64; i++)
+            roof[i] = space ? (snow_site){i % 8, i / 8, 6} : (snow_site){i - (lean ? 3 : 0), 6, 0};
+        static const snow_aggregate_engine engines[] = {SNOW_AGGREGATE_ENGINE_JUMPS, SNOW_AGGREGATE_ENGINE_STEPS};
+        for (size_t k = 0; k < COUNT_OF(engines); k++) {
+            params.engine = engines[k];
+            assert_refused(SNOW_ERROR_AGGREGATE_PATH, &params);
+            params.obstacle_count--; /* a gap */
+            snow_grid *grid = make_aggregate(&params, NULL);
+            assert_ok(snow_step(grid, 3));
+            snow_destroy(grid);
+            params.obstacle_count++;
+        }
+    }
+}
+
+/* The flood that looks for a way keeps to a box of 2^28 sites. */
+static void obstacles_too_far_apart_are_refused(void **state)
+{
+    (void)state;
+    static const snow_site far_apart[] = {{20000, 20000, 0}};
+    snow_aggregate_params params = aggregate_scene(SNOW_AGGREGATE_WITTEN_SANDER);
+    params.obstacles = far_apart;
+    params.obstacle_count = 1;
+    assert_refused(SNOW_ERROR_TOO_LARGE, &params);
 }
 
 /* Ions from the left end never come to a cathode at the right one. */
@@ -259,6 +407,12 @@ static void chances_say_what_they_cannot_do(void **state)
     grid = make_aggregate(&params, NULL);
     assert_status(SNOW_ERROR_TOO_LARGE, snow_aggregate_growth(grid, NULL, 0, &count));
     snow_destroy(grid);
+    static const snow_site corners[] = {{0, 0, 0}, {4096, 4096, 0}}; /* a box of more than 2^24 sites */
+    params.seeds = corners;
+    params.seed_count = 2;
+    grid = make_aggregate(&params, NULL);
+    assert_status(SNOW_ERROR_TOO_LARGE, snow_aggregate_growth(grid, NULL, 0, &count));
+    snow_destroy(grid);
 }
 
 int main(void)
@@ -268,8 +422,12 @@ int main(void)
         cmocka_unit_test(every_preset_grows),
         cmocka_unit_test(pointers_and_structs_are_checked),
         cmocka_unit_test(numbers_out_of_range_are_refused),
+        cmocka_unit_test(members_that_do_not_fit_are_refused),
         cmocka_unit_test(seeds_and_obstacles_are_checked),
+        cmocka_unit_test(too_many_seeds_are_refused),
         cmocka_unit_test(a_cluster_that_is_walled_in_is_refused),
+        cmocka_unit_test(a_roof_over_the_vessel_is_refused),
+        cmocka_unit_test(obstacles_too_far_apart_are_refused),
         cmocka_unit_test(a_blocked_launch_is_refused),
         cmocka_unit_test(a_cathode_out_of_reach_is_refused),
         cmocka_unit_test(other_models_have_no_particles),

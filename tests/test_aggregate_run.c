@@ -1,62 +1,10 @@
 /* How aggregates grow: the same cluster whatever the threads, the instruction set and the pauses; every stop. */
 #include "support/aggregates.h"
+#include "support/allocator.h"
 #include "support/grids.h"
 #include "support/loops.h"
 
 #include <stdlib.h>
-
-/* Scenes of every kind, small. */
-static snow_aggregate_params scene_number(size_t number, const char **name)
-{
-    static const struct {
-        const char *name;
-        snow_aggregate_scene scene;
-        snow_aggregate_lattice lattice;
-        snow_aggregate_contact contact;
-        snow_aggregate_engine engine;
-        double sticking;
-        int32_t hits;
-    } rows[] = {
-        {"square", SNOW_AGGREGATE_WITTEN_SANDER, SNOW_AGGREGATE_SQUARE, SNOW_AGGREGATE_ARRIVAL, 0, 1, 1},
-        {"square entry", SNOW_AGGREGATE_WITTEN_SANDER, SNOW_AGGREGATE_SQUARE, SNOW_AGGREGATE_ENTRY, 0, 1, 1},
-        {"square p", SNOW_AGGREGATE_WITTEN_SANDER, SNOW_AGGREGATE_SQUARE, SNOW_AGGREGATE_ARRIVAL, 0, 0.3, 1},
-        {"square m", SNOW_AGGREGATE_WITTEN_SANDER, SNOW_AGGREGATE_SQUARE, SNOW_AGGREGATE_ARRIVAL, 0, 1, 3},
-        {"hexagonal", SNOW_AGGREGATE_WITTEN_SANDER, SNOW_AGGREGATE_HEXAGONAL, SNOW_AGGREGATE_ARRIVAL, 0, 1, 1},
-        {"cubic", SNOW_AGGREGATE_WITTEN_SANDER, SNOW_AGGREGATE_CUBIC, SNOW_AGGREGATE_ENTRY, 0, 1, 1},
-        {"steps", SNOW_AGGREGATE_WITTEN_SANDER, SNOW_AGGREGATE_SQUARE, SNOW_AGGREGATE_ARRIVAL,
-         SNOW_AGGREGATE_ENGINE_STEPS, 1, 1},
-        {"laboratory", SNOW_AGGREGATE_LABORATORY, SNOW_AGGREGATE_SQUARE, SNOW_AGGREGATE_ARRIVAL, 0, 1, 1},
-        {"line", SNOW_AGGREGATE_LINE, SNOW_AGGREGATE_SQUARE, SNOW_AGGREGATE_ARRIVAL, 0, 1, 1},
-        {"line hexagonal", SNOW_AGGREGATE_LINE, SNOW_AGGREGATE_HEXAGONAL, SNOW_AGGREGATE_ENTRY, 0, 1, 1},
-        {"line cubic", SNOW_AGGREGATE_LINE, SNOW_AGGREGATE_CUBIC, SNOW_AGGREGATE_ARRIVAL, 0, 1, 1},
-        {"electrolysis", SNOW_AGGREGATE_ELECTROLYSIS, SNOW_AGGREGATE_SQUARE, SNOW_AGGREGATE_ARRIVAL, 0, 0.5, 1},
-        {"shore", SNOW_AGGREGATE_SHORE, SNOW_AGGREGATE_SQUARE, SNOW_AGGREGATE_ARRIVAL, 0, 1, 1},
-        {"chimney", SNOW_AGGREGATE_CHIMNEY, SNOW_AGGREGATE_SQUARE, SNOW_AGGREGATE_ARRIVAL, 0, 1, 1},
-        {"snowflake", SNOW_AGGREGATE_SNOWFLAKE, SNOW_AGGREGATE_SQUARE, SNOW_AGGREGATE_ARRIVAL, 0, 1, 1},
-        {"cluster-cluster", SNOW_AGGREGATE_CLUSTER_CLUSTER, SNOW_AGGREGATE_SQUARE, SNOW_AGGREGATE_ARRIVAL, 0, 1, 1},
-        {"off-lattice", SNOW_AGGREGATE_OFF_LATTICE, SNOW_AGGREGATE_SQUARE, SNOW_AGGREGATE_ARRIVAL, 0, 1, 1},
-    };
-    *name = number < COUNT_OF(rows) ? rows[number].name : NULL;
-    snow_aggregate_params params = aggregate_scene(SNOW_AGGREGATE_WITTEN_SANDER);
-    if (*name == NULL)
-        return params;
-    params.scene = rows[number].scene;
-    params.lattice = rows[number].lattice;
-    params.contact = rows[number].contact;
-    params.engine = rows[number].engine;
-    params.sticking = rows[number].sticking;
-    params.hits = rows[number].hits;
-    params.random_seed = 5;
-    params.launch_radius = 40;
-    params.end_radius = 30;
-    params.width = 64;
-    params.height = 64;
-    params.depth = 16;
-    params.wall_right = params.wall_right_top = 63;
-    params.interaction = 3;
-    params.particles = 400;
-    return params;
-}
 
 static void assert_same_particles(const snow_grid *expected, const snow_grid *got)
 {
@@ -88,9 +36,8 @@ static void grow(snow_grid *grid, int64_t steps)
 static void threads_do_not_matter(void **state)
 {
     (void)state;
-    const char *name;
-    for (size_t i = 0; scene_number(i, &name), name != NULL; i++) {
-        snow_aggregate_params params = scene_number(i, &name);
+    for (size_t i = 0; i < aggregate_kind_count; i++) {
+        snow_aggregate_params params = aggregate_kind(i);
         snow_grid *alone = make_aggregate(&params, NULL);
         grow(alone, LONG_RUN);
         for (int32_t threads = 2; threads <= 5; threads += 3) {
@@ -130,9 +77,8 @@ static void instruction_sets_do_not_matter(void **state)
     (void)state;
     snow_isa isas[8];
     size_t count = available_isas(isas);
-    const char *name;
-    for (size_t i = 0; scene_number(i, &name), name != NULL; i++) {
-        snow_aggregate_params params = scene_number(i, &name);
+    for (size_t i = 0; i < aggregate_kind_count; i++) {
+        snow_aggregate_params params = aggregate_kind(i);
         snow_grid *first = make_aggregate(&params, NULL);
         grow(first, LONG_RUN);
         for (size_t k = 0; k < count; k++) {
@@ -150,9 +96,8 @@ static void instruction_sets_do_not_matter(void **state)
 static void a_run_in_slices_is_the_run(void **state)
 {
     (void)state;
-    const char *name;
-    for (size_t i = 0; scene_number(i, &name), name != NULL; i++) {
-        snow_aggregate_params params = scene_number(i, &name);
+    for (size_t i = 0; i < aggregate_kind_count; i++) {
+        snow_aggregate_params params = aggregate_kind(i);
         snow_grid *whole = make_aggregate(&params, NULL);
         snow_grid *sliced = make_aggregate(&params, NULL);
         grow(whole, LONG_RUN);
@@ -167,9 +112,8 @@ static void a_run_in_slices_is_the_run(void **state)
 static void save_in_the_middle_and_continue(void **state)
 {
     (void)state;
-    const char *name;
-    for (size_t i = 0; scene_number(i, &name), name != NULL; i++) {
-        snow_aggregate_params params = scene_number(i, &name);
+    for (size_t i = 0; i < aggregate_kind_count; i++) {
+        snow_aggregate_params params = aggregate_kind(i);
         snow_grid *grid = make_aggregate(&params, NULL);
         grow(grid, LONG_RUN / 2);
         size_t size = 0;
@@ -282,6 +226,193 @@ static void the_laboratory_ends_at_its_radius(void **state)
     snow_destroy(grid);
 }
 
+typedef struct observer {
+    int64_t calls;
+    int64_t between; /* of them, at a step count that is no multiple */
+    int64_t stride;
+    int64_t cancel_at; /* a step count */
+} observer;
+
+static int observe(void *context, const snow_grid *grid, const snow_summary *summary)
+{
+    observer *self = context;
+    assert_int_equal(summary->steps, steps_of(grid));
+    assert_int_equal(summary->frozen, frozen_of(grid));
+    self->calls++;
+    self->between += summary->steps % self->stride != 0;
+    return summary->steps >= self->cancel_at;
+}
+
+static snow_stop observed(observer *self, int64_t stride, int64_t cancel_at)
+{
+    *self = (observer){.stride = stride, .cancel_at = cancel_at};
+    snow_stop stop = stop_after(-1);
+    stop.progress = observe;
+    stop.progress_context = self;
+    stop.progress_steps = stride;
+    return stop;
+}
+
+static void a_callback_ends_a_run_and_it_can_go_on(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < aggregate_kind_count; i++) {
+        snow_aggregate_params params = aggregate_kind(i);
+        snow_grid *whole = make_aggregate(&params, NULL);
+        assert_ok(snow_step(whole, 90));
+        observer watcher;
+        snow_stop stop = observed(&watcher, 10, 50);
+        snow_grid *grid;
+        snow_summary summary = run_to(&params, &stop, &grid);
+        assert_int_equal(SNOW_STOP_CANCELLED, summary.reason);
+        assert_int_equal(50, summary.steps);
+        assert_true(watcher.calls - watcher.between == 5);
+        assert_ok(snow_step(grid, 40));
+        assert_same_particles(whole, grid);
+        snow_destroy(grid);
+        snow_destroy(whole);
+    }
+}
+
+/* Where hardly any walker comes to the cathode a caller hears of it all the same. */
+static void a_callback_is_called_while_walkers_are_lost(void **state)
+{
+    (void)state;
+    snow_aggregate_params params = aggregate_scene(SNOW_AGGREGATE_ELECTROLYSIS);
+    params.height = 100;
+    params.cathode_first = params.cathode_last = 255;
+    params.launch_first = 210;
+    params.launch_last = 220;
+    observer watcher;
+    snow_stop stop = observed(&watcher, 1000, 3);
+    snow_grid *grid;
+    snow_summary summary = run_to(&params, &stop, &grid);
+    assert_int_equal(SNOW_STOP_CANCELLED, summary.reason);
+    assert_int_equal(3, summary.steps);
+    assert_true(watcher.between > 0);
+    snow_destroy(grid);
+}
+
+static void a_time_budget_ends_a_run_and_it_can_go_on(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < aggregate_kind_count; i++) {
+        snow_aggregate_params params = aggregate_kind(i);
+        snow_stop stop = stop_after(90);
+        snow_grid *whole;
+        snow_summary expected = run_to(&params, &stop, &whole);
+        snow_grid *grid = make_aggregate(&params, NULL);
+        stop.seconds = 1e-9;
+        snow_summary summary;
+        do {
+            summary = run_grid(grid, &stop);
+        } while (summary.reason == SNOW_STOP_TIME);
+        assert_int_equal(expected.reason, summary.reason);
+        assert_same_particles(whole, grid);
+        snow_destroy(grid);
+        snow_destroy(whole);
+    }
+}
+
+/* A run that has no other end. */
+static void a_time_budget_ends_an_endless_run(void **state)
+{
+    (void)state;
+    static const snow_aggregate_scene scenes[] = {SNOW_AGGREGATE_WITTEN_SANDER, SNOW_AGGREGATE_SNOWFLAKE,
+                                                  SNOW_AGGREGATE_OFF_LATTICE};
+    for (size_t i = 0; i < COUNT_OF(scenes); i++) {
+        snow_aggregate_params params = aggregate_scene(scenes[i]);
+        snow_stop stop = stop_after(-1);
+        stop.seconds = 0.01;
+        snow_grid *grid;
+        assert_int_equal(SNOW_STOP_TIME, run_to(&params, &stop, &grid).reason);
+        snow_destroy(grid);
+    }
+}
+
+/* Where each scene with a rim has it, and that a run can go on past it until nothing more can join. */
+static void runs_end_at_the_rim_or_full(void **state)
+{
+    (void)state;
+    static const snow_aggregate_scene scenes[] = {SNOW_AGGREGATE_LINE, SNOW_AGGREGATE_ELECTROLYSIS,
+                                                  SNOW_AGGREGATE_CHIMNEY, SNOW_AGGREGATE_SHORE};
+    for (size_t i = 0; i < COUNT_OF(scenes); i++) {
+        bool shore = scenes[i] == SNOW_AGGREGATE_SHORE;
+        snow_aggregate_params params = aggregate_scene(scenes[i]);
+        params.width = 12;
+        params.height = 9;
+        params.wall_right = params.wall_right_top = 11;
+        snow_grid *grid;
+        snow_summary summary = run_to(&params, NULL, &grid);
+        bool shut = scenes[i] == SNOW_AGGREGATE_CHIMNEY && summary.reason == SNOW_STOP_FULL; /* soot fills its foot */
+        assert_true(shut || summary.reason == SNOW_STOP_RIM);
+        uint64_t count = 0;
+        snow_site last;
+        assert_ok(snow_aggregate_particles(grid, &count));
+        assert_ok(snow_aggregate_sites(grid, count - 1, &last, 1));
+        assert_true(shut || last.y == (shore ? 0 : 8));
+        snow_stop stop = stop_after(-1);
+        stop.rim = 0;
+        assert_int_equal(SNOW_STOP_FULL, run_grid(grid, &stop).reason);
+        assert_status(SNOW_ERROR_FULL, snow_step(grid, 1));
+        snow_destroy(grid);
+    }
+}
+
+/* Of several conditions that hold after one step. */
+static void the_first_of_several_reasons_is_given(void **state)
+{
+    (void)state;
+    snow_aggregate_params params = aggregate_scene(SNOW_AGGREGATE_WITTEN_SANDER);
+    snow_stop stop = stop_after(1);
+    stop.frozen = 2;
+    stop.tip_radius = 1;
+    snow_grid *grid;
+    assert_int_equal(SNOW_STOP_RADIUS, run_to(&params, &stop, &grid).reason);
+    stop.tip_radius = 0;
+    assert_int_equal(SNOW_STOP_FROZEN, run_grid(grid, &stop).reason);
+    stop.frozen = 0;
+    assert_int_equal(SNOW_STOP_STEPS, run_grid(grid, &stop).reason);
+    snow_destroy(grid);
+}
+
+/* One allocation after the other fails once: what asks for it says so, and can be asked again. */
+static size_t grow_with_a_failure(const snow_aggregate_params *params, const snow_grid *expected, size_t fail_at)
+{
+    test_allocator allocator = {.fail_at = fail_at};
+    snow_options options = allocator_options(&allocator);
+    snow_grid *grid = NULL;
+    snow_status status = snow_aggregate_create(params, &options, &grid);
+    if (status == SNOW_OK) {
+        while (steps_of(grid) < steps_of(expected) && (status = snow_step(grid, 1)) == SNOW_OK)
+            continue;
+        if (status != SNOW_OK)
+            assert_ok(snow_step(grid, steps_of(expected) - steps_of(grid)));
+        assert_same_particles(expected, grid);
+        snow_destroy(grid);
+    } else {
+        assert_null(grid);
+    }
+    assert_true(status == SNOW_OK || status == SNOW_ERROR_NO_MEMORY);
+    assert_int_equal(0, allocator.live_blocks);
+    return allocator.calls;
+}
+
+static void growth_survives_any_failure(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < aggregate_kind_count; i++) {
+        snow_aggregate_params params = aggregate_kind(i);
+        params.record_order = 1;
+        snow_grid *expected = make_aggregate(&params, NULL);
+        assert_ok(snow_step(expected, 50));
+        size_t calls = SIZE_MAX;
+        for (size_t n = 1; n <= calls; n += 1 + n / 20)
+            calls = grow_with_a_failure(&params, expected, n);
+        snow_destroy(expected);
+    }
+}
+
 /* A shaft of one column: soot has nowhere to go but up, and the mouth is shut by the first grain. */
 static void a_full_domain_ends_the_run(void **state)
 {
@@ -341,6 +472,13 @@ int main(void)
         cmocka_unit_test(runs_end_at_a_height),
         cmocka_unit_test(runs_end_at_the_steps),
         cmocka_unit_test(the_laboratory_ends_at_its_radius),
+        cmocka_unit_test(a_callback_ends_a_run_and_it_can_go_on),
+        cmocka_unit_test(a_callback_is_called_while_walkers_are_lost),
+        cmocka_unit_test(a_time_budget_ends_a_run_and_it_can_go_on),
+        cmocka_unit_test(a_time_budget_ends_an_endless_run),
+        cmocka_unit_test(runs_end_at_the_rim_or_full),
+        cmocka_unit_test(the_first_of_several_reasons_is_given),
+        cmocka_unit_test(growth_survives_any_failure),
         cmocka_unit_test(a_full_domain_ends_the_run),
         cmocka_unit_test(the_whole_shore_can_be_washed_away),
         cmocka_unit_test(one_cluster_is_still),

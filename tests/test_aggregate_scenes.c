@@ -674,6 +674,67 @@ static void the_second_disc_comes_from_any_side(void **state)
     assert_counts(expected, got, SECTORS);
 }
 
+/* Where a third disc meets two that touch is known: z -> (z - is)/(z + is), s = sqrt(3)/2, takes what is outside of all
+   contacts to a wedge of 120 degrees, and the power 3/2 that to a half-plane, on whose edge the harmonic measure is
+   Cauchy's law. */
+static void the_third_disc_meets_a_pair_as_it_should(void **state)
+{
+    (void)state;
+    enum { GRIDS = 20000, PARTS = 20 };
+    static const snow_site pair[] = {{0, 0, 0}, {1, 0, 0}};
+    const double s = sqrt(0.75);
+    snow_aggregate_params params = aggregate_scene(SNOW_AGGREGATE_OFF_LATTICE);
+    params.seeds = pair;
+    params.seed_count = COUNT_OF(pair);
+    double expected[2 * PARTS];
+    double got[2 * PARTS] = {0};
+    for (uint64_t i = 0; i < GRIDS; i++) {
+        params.random_seed = i;
+        snow_grid *grid = make_aggregate(&params, NULL);
+        assert_ok(snow_step(grid, 1));
+        snow_point point;
+        assert_ok(snow_aggregate_points(grid, 2, &point, 1));
+        double x = point.x - 0.5;
+        double share = 2 / 3.141592653589793 * atan(pow(hypot(x, point.y - s) / hypot(x, point.y + s), 1.5));
+        got[(x > 0 ? PARTS : 0) + (int)(share * PARTS)]++;
+        snow_destroy(grid);
+    }
+    for (size_t i = 0; i < COUNT_OF(expected); i++)
+        expected[i] = (double)GRIDS / (2 * PARTS);
+    assert_counts(expected, got, COUNT_OF(expected));
+}
+
+/* Mean square radii of gyration: that of three discs is exactly 5/9, the others are means of 400,000 clusters of an
+   independent program (circles up to the nearest disc, found by looking at each). */
+static void discs_have_their_radius_of_gyration(void **state)
+{
+    (void)state;
+    enum { GRIDS = 8000 };
+    static const uint64_t masses[] = {2, 3, 4, 5, 10};
+    static const double known[] = {0.25, 5.0 / 9, 0.895395, 1.260530, 3.313556};
+    static const double error[] = {0, 0, 0.000293, 0.000442, 0.001203};
+    double sum[COUNT_OF(masses)] = {0};
+    double squares[COUNT_OF(masses)] = {0};
+    snow_aggregate_params params = aggregate_scene(SNOW_AGGREGATE_OFF_LATTICE);
+    for (uint64_t i = 0; i < GRIDS; i++) {
+        params.random_seed = i;
+        snow_grid *grid = make_aggregate(&params, NULL);
+        assert_ok(snow_step(grid, 9));
+        double radius[COUNT_OF(masses)];
+        assert_ok(snow_aggregate_gyration(grid, masses, radius, COUNT_OF(masses)));
+        for (size_t k = 0; k < COUNT_OF(masses); k++) {
+            sum[k] += radius[k] * radius[k];
+            squares[k] += pow(radius[k], 4);
+        }
+        snow_destroy(grid);
+    }
+    for (size_t k = 0; k < COUNT_OF(masses); k++) {
+        double mean = sum[k] / GRIDS;
+        double own = fmax(squares[k] / GRIDS - mean * mean, 0) / GRIDS;
+        assert_near(known[k], mean, 4 * sqrt(own + error[k] * error[k]) + 1e-9);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -689,6 +750,8 @@ int main(void)
         cmocka_unit_test(clusters_move_as_the_rules_say),
         cmocka_unit_test(discs_touch_and_do_not_overlap),
         cmocka_unit_test(the_second_disc_comes_from_any_side),
+        cmocka_unit_test(the_third_disc_meets_a_pair_as_it_should),
+        cmocka_unit_test(discs_have_their_radius_of_gyration),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

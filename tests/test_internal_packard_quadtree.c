@@ -218,6 +218,13 @@ static void assert_same_measures(const plain *expected, const quadtree_measures 
     assert_count(number(tip_square), got->tip_square);
 }
 
+static void assert_like_plain(const plain *expected, snow_quadtree *got)
+{
+    quadtree_measures measures = measures_of(got);
+    assert_same_cells(expected, got);
+    assert_same_measures(expected, &measures);
+}
+
 enum { RULES = 128 }; /* those with d0 = 0 are even */
 
 static void every_rule_grows_as_the_plain_reading_says(void **state)
@@ -237,9 +244,7 @@ static void every_rule_grows_as_the_plain_reading_says(void **state)
                 assert_int_equal(SNOW_OK, snow_quadtree_advance(with.tree, (uint64_t)steps));
                 for (int step = 0; step < steps; step++)
                     plain_step(&cells, (uint8_t)rule);
-                quadtree_measures measures = measures_of(with.tree);
-                assert_same_cells(&cells, with.tree);
-                assert_same_measures(&cells, &measures);
+                assert_like_plain(&cells, with.tree);
             }
             close_scene(&with);
         }
@@ -262,9 +267,7 @@ static void seeds_may_be_put_while_the_crystal_grows(void **state)
             assert_int_equal(SNOW_OK, snow_quadtree_advance(with.tree, steps));
             for (uint32_t step = 0; step < steps; step++)
                 plain_step(&cells, rule);
-            quadtree_measures measures = measures_of(with.tree);
-            assert_same_cells(&cells, with.tree);
-            assert_same_measures(&cells, &measures);
+            assert_like_plain(&cells, with.tree);
         }
         close_scene(&with);
     }
@@ -665,9 +668,7 @@ static void collections_change_nothing(void **state)
                 break;
             }
             plain_step(&cells, rule);
-            quadtree_measures measures = measures_of(with.tree);
-            assert_same_cells(&cells, with.tree);
-            assert_same_measures(&cells, &measures);
+            assert_like_plain(&cells, with.tree);
         }
         close_scene(&with);
     }

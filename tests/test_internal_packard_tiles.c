@@ -23,6 +23,15 @@ static snow_heap heap_with_limit(uint64_t limit)
     return heap;
 }
 
+/* A plane with one frozen cell. */
+static snow_tiles *tiles_from(snow_heap *heap, const snow_tiles_plan *plan, int64_t q, int64_t r)
+{
+    snow_tiles *tiles = NULL;
+    assert_int_equal(SNOW_OK, snow_tiles_create(&tiles, heap, plan));
+    assert_int_equal(SNOW_OK, snow_tiles_set(tiles, q, r));
+    return tiles;
+}
+
 /* xorshift: the same numbers everywhere. */
 static uint64_t draw(uint64_t *state)
 {
@@ -338,10 +347,7 @@ static void an_empty_plane_stays_empty(void **state)
 static uint64_t frozen_after(uint8_t rule, bool folded, int64_t steps)
 {
     snow_heap heap = heap_with_limit(0);
-    snow_tiles *tiles;
-    assert_int_equal(SNOW_OK,
-                     snow_tiles_create(&tiles, &heap, &(snow_tiles_plan){.freezes = rule, .folded = folded}));
-    assert_int_equal(SNOW_OK, snow_tiles_set(tiles, 0, 0));
+    snow_tiles *tiles = tiles_from(&heap, &(snow_tiles_plan){.freezes = rule, .folded = folded}, 0, 0);
     assert_int_equal(SNOW_OK, snow_tiles_advance(tiles, steps));
     snow_tiles_census census;
     snow_tiles_count(tiles, &census);
@@ -372,10 +378,10 @@ static void set_images(pair *both, int64_t q, int64_t r)
     for (int symmetry = 0; symmetry < SNOW_HEXAGON_SYMMETRIES; symmetry++) {
         int64_t image_q, image_r;
         snow_hexagon_image(symmetry, q, r, &image_q, &image_r);
-        plain_set(&both->model, both->plan.centre_q + image_q, both->plan.centre_r + image_r);
+        plain_set(&both->model, both->plan.fold_q + image_q, both->plan.fold_r + image_r);
     }
     for (size_t i = 0; i < both->planes; i++)
-        assert_int_equal(SNOW_OK, snow_tiles_set(both->tiles[i], both->plan.centre_q + q, both->plan.centre_r + r));
+        assert_int_equal(SNOW_OK, snow_tiles_set(both->tiles[i], both->plan.fold_q + q, both->plan.fold_r + r));
 }
 
 static void every_rule_folded(void **state)
@@ -402,7 +408,7 @@ static void every_rule_folded(void **state)
 static void a_folded_plane_anywhere(void **state)
 {
     (void)state;
-    snow_tiles_plan plan = {.freezes = 0x02, .folded = true, .centre_q = 37, .centre_r = -70};
+    snow_tiles_plan plan = {.freezes = 0x02, .folded = true, .fold_q = 37, .fold_r = -70, .centre_q = 11};
     pair both;
     pair_start(&both, &plan, window_of(180));
     set_images(&both, 0, 0);
@@ -439,10 +445,8 @@ static void a_torus_reads_as_it_repeats(void **state)
 {
     (void)state;
     snow_heap heap = heap_with_limit(0);
-    snow_tiles *tiles;
     snow_tiles_plan plan = {.freezes = 0x02, .width = 70, .height = 5};
-    assert_int_equal(SNOW_OK, snow_tiles_create(&tiles, &heap, &plan));
-    assert_int_equal(SNOW_OK, snow_tiles_set(tiles, 69, 2));
+    snow_tiles *tiles = tiles_from(&heap, &plan, 69, 2);
     uint64_t row[4];
     snow_tiles_row(tiles, -140, -3, 250, row);
     for (int i = 0; i < 250; i++)
@@ -455,10 +459,8 @@ static void known_count_on_a_torus(void **state)
 {
     (void)state;
     snow_heap heap = heap_with_limit(0);
-    snow_tiles *tiles;
     snow_tiles_plan plan = {.freezes = 0x02, .width = 20, .height = 13};
-    assert_int_equal(SNOW_OK, snow_tiles_create(&tiles, &heap, &plan));
-    assert_int_equal(SNOW_OK, snow_tiles_set(tiles, 10, 6));
+    snow_tiles *tiles = tiles_from(&heap, &plan, 10, 6);
     assert_int_equal(SNOW_OK, snow_tiles_advance(tiles, 40));
     snow_tiles_census census;
     snow_tiles_count(tiles, &census);
@@ -587,9 +589,7 @@ static void masks_leave_nothing_behind(void **state)
     (void)state;
     static const zones specks = {.refused = in_specks};
     snow_heap heap = heap_with_limit(0);
-    snow_tiles *tiles;
-    assert_int_equal(SNOW_OK, snow_tiles_create(&tiles, &heap, &(snow_tiles_plan){.freezes = 0x02}));
-    assert_int_equal(SNOW_OK, snow_tiles_set(tiles, 0, 0));
+    snow_tiles *tiles = tiles_from(&heap, &(snow_tiles_plan){.freezes = 0x02}, 0, 0);
     assert_int_equal(SNOW_OK, snow_tiles_advance(tiles, 100));
     uint64_t before = heap.used;
     assert_int_equal(SNOW_OK, snow_tiles_set_mask(tiles, zone_mask, &specks));
@@ -750,9 +750,7 @@ static void refused_cells_and_masks_change_nothing(void **state)
     (void)state;
     static const zones specks = {.refused = in_specks};
     snow_heap heap = heap_with_limit(0);
-    snow_tiles *tiles;
-    assert_int_equal(SNOW_OK, snow_tiles_create(&tiles, &heap, &(snow_tiles_plan){.freezes = 0x02}));
-    assert_int_equal(SNOW_OK, snow_tiles_set(tiles, 0, 0));
+    snow_tiles *tiles = tiles_from(&heap, &(snow_tiles_plan){.freezes = 0x02}, 0, 0);
     heap.limit = heap.used;
     snow_status status = SNOW_OK;
     int64_t q = 0;
@@ -776,11 +774,9 @@ static void cells_far_away(void **state)
     static const int64_t far[] = {INT32_MIN, -2147483000, 1000000007, INT32_MAX};
     for (size_t i = 0; i < 16; i++) {
         snow_heap heap = heap_with_limit(0);
-        snow_tiles *tiles;
         int64_t q = far[i / 4];
         int64_t r = far[i % 4];
-        assert_int_equal(SNOW_OK, snow_tiles_create(&tiles, &heap, &(snow_tiles_plan){.freezes = 0x02}));
-        assert_int_equal(SNOW_OK, snow_tiles_set(tiles, q, r));
+        snow_tiles *tiles = tiles_from(&heap, &(snow_tiles_plan){.freezes = 0x02}, q, r);
         snow_tiles_census census;
         snow_tiles_count(tiles, &census);
         assert_int_equal(q, census.least_q);
@@ -803,10 +799,8 @@ static void a_still_plane_counts_on(void **state)
 {
     (void)state;
     snow_heap heap = heap_with_limit(0);
-    snow_tiles *tiles;
     snow_tiles_plan plan = {.freezes = 0x02, .width = 40, .height = 40};
-    assert_int_equal(SNOW_OK, snow_tiles_create(&tiles, &heap, &plan));
-    assert_int_equal(SNOW_OK, snow_tiles_set(tiles, 0, 0));
+    snow_tiles *tiles = tiles_from(&heap, &plan, 0, 0);
     assert_int_equal(SNOW_OK, snow_tiles_advance(tiles, INT64_C(1) << 60));
     assert_int_equal(INT64_C(1) << 60, snow_tiles_steps(tiles));
     assert_true(snow_tiles_still(tiles));

@@ -267,6 +267,60 @@ static snow_status use_view(const void *object)
     return snow_render(try_on, object, NULL, 0, &(size_t){0});
 }
 
+static void init_packard(void *object, size_t struct_size)
+{
+    snow_packard_params_init(object, struct_size);
+}
+
+static snow_status use_packard(const void *object)
+{
+    snow_grid *grid = untouched;
+    snow_status status = snow_packard_create(object, NULL, &grid);
+    if (status == SNOW_OK)
+        snow_destroy(grid);
+    else
+        assert_ptr_equal(untouched, grid);
+    return status;
+}
+
+static snow_status use_packard_for_a_rule(const void *object)
+{
+    return snow_packard_params_rule((void *)(uintptr_t)object, "0100000");
+}
+
+static snow_status use_packard_for_a_pattern(const void *object)
+{
+    static const char pattern[] = "x = 1, y = 1\no!";
+    snow_grid *grid = untouched;
+    snow_status status = snow_packard_load_rle(pattern, sizeof pattern - 1, object, NULL, &grid);
+    if (status == SNOW_OK)
+        snow_destroy(grid);
+    else
+        assert_ptr_equal(untouched, grid);
+    return status;
+}
+
+static void init_zone(void *object, size_t struct_size)
+{
+    snow_packard_zone_init(object, struct_size, SNOW_PACKARD_RESTRICTION, SNOW_PACKARD_CORNERS);
+}
+
+static snow_status use_zone(const void *object)
+{
+    snow_packard_params params;
+    snow_packard_params_init(&params, sizeof params);
+    snow_grid *grid = NULL;
+    assert_ok(snow_packard_create(&params, NULL, &grid));
+    snow_status status = snow_packard_add_zone(grid, object);
+    snow_destroy(grid);
+    return status;
+}
+
+static snow_status use_view_to_fit(const void *object)
+{
+    return snow_view_fit(try_on, 100, (void *)(uintptr_t)object);
+}
+
 static const struct_kind kinds[] = {
     {"options", sizeof(snow_options), init_options, use_options},
     {"params", sizeof(snow_reiter_params), init_params, use_params},
@@ -275,6 +329,11 @@ static const struct_kind kinds[] = {
     {"conditions", sizeof(snow_reiter_conditions), init_conditions, use_conditions},
     {"conditions to read", sizeof(snow_reiter_conditions), init_conditions, use_conditions_to_read},
     {"view", sizeof(snow_view), init_view, use_view},
+    {"view to fit", sizeof(snow_view), init_view, use_view_to_fit},
+    {"packard params", sizeof(snow_packard_params), init_packard, use_packard},
+    {"packard params for a rule", sizeof(snow_packard_params), init_packard, use_packard_for_a_rule},
+    {"packard params for a pattern", sizeof(snow_packard_params), init_packard, use_packard_for_a_pattern},
+    {"zone", sizeof(snow_packard_zone), init_zone, use_zone},
 };
 
 static int make_try_on(void **state)

@@ -294,6 +294,28 @@ static void sliced_runs_end_at_the_same_step(void **state)
     }
 }
 
+/* Steps that would take years are not taken in one go. */
+static void a_time_budget_ends_a_run(void **state)
+{
+    (void)state;
+    for (size_t k = 0; k < COUNT_OF(engines); k++) {
+        snow_packard_params params = packard_scene("0100000");
+        params.engine = engines[k];
+        snow_grid *grid = make_packard(&params, NULL);
+        snow_stop stop = stop_after(INT64_C(1) << 40);
+        stop.seconds = 1e-9;
+        int64_t last = 0;
+        for (int slice = 0; slice < 3; slice++) {
+            snow_summary summary = run_grid(grid, &stop);
+            assert_int_equal(SNOW_STOP_TIME, summary.reason);
+            assert_in_range(summary.steps, last + 1, 100000);
+            last = summary.steps;
+        }
+        assert_int_equal(population_after("0100000", SNOW_PACKARD_ENGINE_TILES, last), frozen_of(grid));
+        snow_destroy(grid);
+    }
+}
+
 static void memory_goes_back_and_failures_are_clean(void **state)
 {
     (void)state;
@@ -340,8 +362,9 @@ static void the_memory_limit_holds(void **state)
     (void)state;
     for (int engine = SNOW_PACKARD_ENGINE_AUTO; engine <= SNOW_PACKARD_ENGINE_QUADTREE; engine++) {
         snow_options options = default_options();
-        options.memory_limit = 150000;
+        options.memory_limit = 80000;
         snow_packard_params params = packard_scene("0100000");
+        params.cluster = 3;
         params.engine = (snow_packard_engine)engine;
         snow_grid *grid = make_packard(&params, &options);
         snow_status status = SNOW_OK;
@@ -451,9 +474,9 @@ static void the_choice_of_engine_is_the_expected_one(void **state)
         snow_packard_engine engine;
     } scenes[] = {
         {"0100000", 100, 0, SNOW_PACKARD_ENGINE_TILES},
-        {"0100000", 1000, 0, SNOW_PACKARD_ENGINE_TILES},
+        {"0100000", 4000, 0, SNOW_PACKARD_ENGINE_TILES},
         {"0100000", 100000, 0, SNOW_PACKARD_ENGINE_QUADTREE},
-        {"0101010", 10000, 0, SNOW_PACKARD_ENGINE_QUADTREE},
+        {"0101010", 4000, 0, SNOW_PACKARD_ENGINE_QUADTREE},
         {"0100000", 100, 3000, SNOW_PACKARD_ENGINE_TILES},
     };
     for (size_t i = 0; i < COUNT_OF(scenes); i++) {
@@ -479,6 +502,7 @@ int main(void)
         cmocka_unit_test(cells_can_be_frozen_and_melted),
         cmocka_unit_test(runs_end_at_the_right_step),
         cmocka_unit_test(sliced_runs_end_at_the_same_step),
+        cmocka_unit_test(a_time_budget_ends_a_run),
         cmocka_unit_test(memory_goes_back_and_failures_are_clean),
         cmocka_unit_test(the_memory_limit_holds),
         cmocka_unit_test(measures_agree_with_the_cells),

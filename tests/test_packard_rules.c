@@ -316,6 +316,24 @@ static void other_models_and_null_are_refused(void **state)
     snow_destroy(grid);
 }
 
+/* However little of the rhombus belongs to the interior, its cells are found soon. */
+static void a_scatter_over_a_small_interior_takes_no_time(void **state)
+{
+    (void)state;
+    snow_packard_params params = packard_scene("0100000");
+    params.scatter_side = 1 << 21;
+    for (int domain = SNOW_PACKARD_DISC; domain <= SNOW_PACKARD_TORUS; domain++) {
+        params.domain = (snow_packard_domain)domain;
+        params.radius = 3;
+        params.width = 2;
+        params.height = 9;
+        params.scatter = 9;
+        snow_grid *grid = make_packard(&params, NULL);
+        assert_int_equal(9, frozen_of(grid));
+        snow_destroy(grid);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -327,6 +345,7 @@ int main(void)
         cmocka_unit_test(wrong_scenes_are_refused),
         cmocka_unit_test(seeds_are_where_they_should_be),
         cmocka_unit_test(random_seeds_are_reproducible),
+        cmocka_unit_test(a_scatter_over_a_small_interior_takes_no_time),
         cmocka_unit_test(names_are_known),
         cmocka_unit_test(other_models_and_null_are_refused),
     };

@@ -261,6 +261,33 @@ static void the_quadtree_goes_on_where_zones_end(void **state)
 }
 
 /* A crystal that rests under a restriction is still only when that never ends. */
+/* Zones hand the crystal from the quadtree to the tiles, which cannot go back when they have frozen too many cells. */
+static void a_number_of_cells_is_met_at_its_step_beside_zones(void **state)
+{
+    (void)state;
+    for (int64_t first = 1; first <= 9; first += 4) {
+        snow_packard_zone zone = packard_zone_of(SNOW_PACKARD_RESTRICTION, SNOW_PACKARD_CORNERS, first, 30);
+        snow_packard_params params = packard_scene("0110010");
+        params.engine = SNOW_PACKARD_ENGINE_REFERENCE;
+        snow_grid *reference = make_packard(&params, NULL);
+        params.engine = SNOW_PACKARD_ENGINE_QUADTREE;
+        snow_grid *quadtree = make_packard(&params, NULL);
+        assert_ok(snow_packard_add_zone(reference, &zone));
+        assert_ok(snow_packard_add_zone(quadtree, &zone));
+        for (uint64_t frozen = 10; frozen < 600; frozen += 70) {
+            snow_stop stop = stop_after(40);
+            stop.frozen = frozen;
+            snow_summary expected = run_grid(reference, &stop);
+            snow_summary got = run_grid(quadtree, &stop);
+            assert_int_equal(expected.steps, got.steps);
+            assert_int_equal(expected.reason, got.reason);
+        }
+        assert_same_crystals(reference, quadtree);
+        snow_destroy(reference);
+        snow_destroy(quadtree);
+    }
+}
+
 static void still_waits_for_zones_that_may_wake_the_crystal(void **state)
 {
     (void)state;
@@ -338,6 +365,7 @@ int main(void)
         cmocka_unit_test(sectors_have_the_cells_that_geometry_says),
         cmocka_unit_test(zones_can_be_added_while_the_crystal_grows),
         cmocka_unit_test(the_quadtree_goes_on_where_zones_end),
+        cmocka_unit_test(a_number_of_cells_is_met_at_its_step_beside_zones),
         cmocka_unit_test(still_waits_for_zones_that_may_wake_the_crystal),
         cmocka_unit_test(wrong_zones_are_refused),
     };

@@ -317,10 +317,17 @@ static void rectangles_that_make_no_sense_are_refused(void **state)
     }
     size_t count = 0;
     static const snow_rect wide[] = {{INT32_MIN, 0, INT32_MAX, 1}, {1, 0, INT32_MAX, 1}, {0, 1, 1, INT32_MAX}};
+    bool fits = INT32_MAX <= SIZE_MAX / sizeof(double); /* not in 32 bits */
     for (size_t i = 0; i < COUNT_OF(wide); i++) {
-        assert_ok(snow_field_copy(grid, SNOW_FIELD_VALUE, &wide[i], NULL, 0, &count));
-        assert_int_equal(INT32_MAX, count);
+        assert_status(fits ? SNOW_OK : SNOW_ERROR_TOO_LARGE,
+                      snow_field_copy(grid, SNOW_FIELD_VALUE, &wide[i], NULL, 0, &count));
+        assert_int_equal(fits ? INT32_MAX : 0, count);
     }
+    snow_rect most = {INT32_MIN, INT32_MIN, INT32_MAX, INT32_MAX};
+    double value = 77;
+    assert_status(SNOW_ERROR_TOO_LARGE, snow_field_copy(grid, SNOW_FIELD_VALUE, &most, &value, 1, NULL));
+    assert_status(SNOW_ERROR_TOO_LARGE, snow_field_set(grid, SNOW_FIELD_VALUE, &most, &value, 1));
+    assert_same_double(77, value);
     snow_destroy(grid);
 }
 

@@ -261,6 +261,32 @@ static void diffusion_can_change(void **state)
     snow_destroy(rows);
 }
 
+/* A background far above the old one, and an addition with it: no sum is kept in the old, much finer quantum. */
+static void from_hardly_any_vapour_to_almost_ice(void **state)
+{
+    (void)state;
+    static const snow_reiter_precision precisions[] = {SNOW_REITER_PRECISION_DOUBLE, SNOW_REITER_PRECISION_SINGLE};
+    for (size_t i = 0; i < COUNT_OF(precisions); i++) {
+        snow_reiter_params params = disc_scene(9e-9, 0.0063, 1, 12);
+        params.precision = precisions[i];
+        params.symmetry = SNOW_REITER_SYMMETRY_NONE;
+        snow_grid *rows = make_grid(&params, NULL);
+        params.engine = SNOW_REITER_ENGINE_REFERENCE;
+        snow_grid *reference = make_grid(&params, NULL);
+        assert_ok(snow_step(rows, 47));
+        assert_ok(snow_step(reference, 47));
+        change(rows, 0.99, 0.046, 0);
+        change(reference, 0.99, 0.046, 0);
+        assert_same_grids(reference, rows);
+        assert_near(0.99, value_at(rows, SNOW_FIELD_VALUE, 100, 100), 0x1p-28);
+        assert_ok(snow_step(rows, 20));
+        assert_ok(snow_step(reference, 20));
+        assert_same_grids(reference, rows);
+        snow_destroy(rows);
+        snow_destroy(reference);
+    }
+}
+
 static void a_grid_that_stood_still_can_be_woken(void **state)
 {
     (void)state;
@@ -389,6 +415,7 @@ int main(void)
         cmocka_unit_test(additions_of_cells_stay_until_a_new_one_comes),
         cmocka_unit_test(changing_nothing_changes_nothing),
         cmocka_unit_test(diffusion_can_change),
+        cmocka_unit_test(from_hardly_any_vapour_to_almost_ice),
         cmocka_unit_test(a_grid_that_stood_still_can_be_woken),
         cmocka_unit_test(conditions_out_of_range_are_refused),
         cmocka_unit_test(vapour_that_would_reach_1_is_refused),

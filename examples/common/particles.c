@@ -15,6 +15,7 @@ static const colour wall = {92, 94, 104};
 static const colour land = {196, 164, 112};
 static const colour rock = {112, 84, 58};
 static const colour sea = {24, 70, 120};
+static const colour ice = {196, 220, 240};
 
 #define ROW_DISTANCE 0.86602540378443865
 
@@ -58,6 +59,12 @@ static bool has_box(const snow_aggregate_params *params)
 static double age_of(const particles *self, size_t number)
 {
     return self->count > 1 ? (double)number / (double)(self->count - 1) : 0;
+}
+
+/* Particles that drift have no age. */
+static colour colour_of(const particles *self, const snow_aggregate_params *params, size_t number)
+{
+    return params->scene == SNOW_AGGREGATE_CLUSTER_CLUSTER ? ice : dots_age(age_of(self, number));
 }
 
 static frame frame_of(const particles *self, const snow_aggregate_params *params)
@@ -116,7 +123,7 @@ static void paint_plane(const particles *self, dots *image, const snow_aggregate
     double width = params->scene == SNOW_AGGREGATE_OFF_LATTICE ? 0.886 : 1; /* the disc's area as a square's */
     double height = params->lattice == SNOW_AGGREGATE_HEXAGONAL ? ROW_DISTANCE : width;
     for (size_t i = 0; i < self->count && params->scene != SNOW_AGGREGATE_SHORE; i++)
-        dots_paint(image, self->points[i].x, self->points[i].y, width, height, dots_age(age_of(self, i)));
+        dots_paint(image, self->points[i].x, self->points[i].y, width, height, colour_of(self, params, i));
 }
 
 /* A particle in space, seen along the diagonal of the axes. */
@@ -142,6 +149,8 @@ static seen *see_all(const particles *self, frame *view)
         snow_point at = self->points[i];
         all[i] = (seen){(at.x - at.y) * 0.7071, at.z * 0.8165 + (at.x + at.y) * 0.4082,
                         at.z * 0.5774 - (at.x + at.y) * 0.5774, i};
+        if (i == 0)
+            *view = (frame){all[0].x, all[0].y, all[0].x, all[0].y};
         view->left = fmin(view->left, all[i].x - 2);
         view->right = fmax(view->right, all[i].x + 2);
         view->bottom = fmin(view->bottom, all[i].y - 2);
@@ -154,7 +163,7 @@ static seen *see_all(const particles *self, frame *view)
     return all;
 }
 
-static bool draw_space(const particles *self, int32_t size, dots *image)
+static bool draw_space(const particles *self, const snow_aggregate_params *params, int32_t size, dots *image)
 {
     frame view;
     seen *all = see_all(self, &view);
@@ -166,7 +175,7 @@ static bool draw_space(const particles *self, int32_t size, dots *image)
     double nearest = self->count > 0 ? all[self->count - 1].depth : 1;
     for (size_t i = 0; i < self->count; i++) {
         double light = 0.12 + 0.88 * (all[i].depth - farthest) / fmax(nearest - farthest, 1);
-        dots_paint(image, all[i].x, all[i].y, 1.15, 1.15, dots_dimmed(dots_age(age_of(self, all[i].number)), light));
+        dots_paint(image, all[i].x, all[i].y, 1.15, 1.15, dots_dimmed(colour_of(self, params, all[i].number), light));
     }
     free(all);
     return true;
@@ -190,7 +199,7 @@ bool particles_draw(const particles *self, const snow_grid *grid, int32_t size, 
     bool space = params.lattice == SNOW_AGGREGATE_CUBIC && params.scene != SNOW_AGGREGATE_OFF_LATTICE;
     dots image;
     picture pixels;
-    if (!(space ? draw_space(self, size, &image) : draw_plane(self, grid, &params, size, &image)))
+    if (!(space ? draw_space(self, &params, size, &image) : draw_plane(self, grid, &params, size, &image)))
         return false;
     bool written = dots_finish(&image, &pixels) && png_write(file, &pixels);
     dots_destroy(&image);

@@ -17,7 +17,7 @@ void particles_destroy(particles *self);
 
 /* Each draws or writes, commits the output and returns true; or complains, and nothing is left. */
 
-/* A PNG picture: colour by age, columns and rows of a vessel to its brim; clusters of the cubic lattice from above. */
+/* A PNG picture: colour by age, columns and rows of a vessel to its brim; what has grown in space is seen along a diagonal. */
 bool particles_draw(const particles *self, const snow_grid *grid, int32_t size, output *file);
 
 /* A line a particle: its coordinates in joining order, whole numbers on a lattice. */

@@ -109,12 +109,13 @@ static double widest_row_label(const sheet *self, double text)
     return widest;
 }
 
-/* The greatest height up to a wanted one at which every caption fits under its panel. */
+/* The greatest height up to a wanted one at which every caption fits under its panel, and is apart from the next. */
 static double caption_height(const sheet *self, double wanted)
 {
     double height = wanted;
+    double room = self->panel_size - wanted;
     for (int32_t i = 0; i < self->count; i++)
-        height = fmin(height, wanted * self->panel_size / fmax(1, label_width(self->panels[i].caption, wanted)));
+        height = fmin(height, wanted * room / fmax(1, label_width(self->panels[i].caption, wanted)));
     return height;
 }
 

@@ -42,11 +42,11 @@ typedef struct sheet {
     snow_palette palette;
 } sheet;
 
-#define SHEET_ROWS(it, size) \
+#define SHEET_ROWS(it, size, colours) \
     OPTION_GROUP("The picture"), \
     OPTION_TEXT("out", "FILE.png", &(it)->out, "where the picture goes; none: no picture"), \
     OPTION_INTEGER("panel", "PIXELS", &(it)->panel_size, 16, 4096, "side of a panel (" size ")"), \
-    OPTION_CHOICE("palette", palette_names, &(it)->palette, "colours (paper)"), \
+    OPTION_CHOICE("palette", palette_names, &(it)->palette, "colours (" colours ")"), \
     OPTION_INTEGER("threads", "COUNT", &(it)->threads, 0, 1024, "panels that grow at once; 0: one a processor (1)")
 
 /* Writes the defaults of the options. */

@@ -322,8 +322,8 @@ SNOW_API snow_status snow_aggregate_order_at(const snow_grid *grid, snow_site si
  * @param low receives the least coordinates.
  * @param high receives the greatest.
  * @return ::SNOW_OK, ::SNOW_ERROR_NULL; ::SNOW_ERROR_UNSUPPORTED for another
- *         model; ::SNOW_ERROR_RANGE when there is no particle. Cost: constant on
- *         a lattice, else proportional to the number of particles.
+ *         model; ::SNOW_ERROR_RANGE when there is no particle. Cost: one pass
+ *         over the particles.
  */
 SNOW_API snow_status snow_aggregate_bounds(const snow_grid *grid, snow_point *low, snow_point *high);
 

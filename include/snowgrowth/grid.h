@@ -100,8 +100,8 @@ typedef enum snow_stop_reason {
     SNOW_STOP_TIME = 6,      /**< The wall-clock budget was spent. */
     SNOW_STOP_CANCELLED = 7, /**< The progress callback asked for it. */
     SNOW_STOP_UNSTABLE = 8,  /**< The field grew without bound; the call returns ::SNOW_ERROR_UNSTABLE. */
-    SNOW_STOP_FULL = 20,     /**< Nothing more can join: the domain is full. Always looked at. */
-    SNOW_STOP_HEIGHT = 21    /**< The deposit reached the height. */
+    SNOW_STOP_FULL = 9,      /**< Nothing more can join: the domain is full. Always looked at. */
+    SNOW_STOP_HEIGHT = 10    /**< The deposit reached the height. */
 } snow_stop_reason;
 
 /**
@@ -160,7 +160,7 @@ typedef struct snow_stop {
     double seconds;         /**< Ends after this much wall-clock time; 0: no limit. */
     snow_progress progress; /**< Told about the run, and can end it; may be NULL. */
     void *progress_context; /**< Handed to progress. */
-    int64_t progress_steps; /**< Steps between two calls of progress, at least 1; 100 by default. */
+    int64_t progress_steps; /**< Steps between two calls of progress, at least 1; 100 by default. Where work leads to no step (aggregate.h: walkers that are lost), progress is called between them, too. */
     int64_t height;         /**< Ends when a deposit is at least so many rows high; 0: no limit. For models with a floor. */
 } snow_stop;
 
@@ -334,7 +334,8 @@ SNOW_API snow_status snow_cell_value(const snow_grid *grid, snow_field field, in
  *        be NULL unless values is.
  * @return as snow_cell_value(); ::SNOW_ERROR_RECTANGLE when the rectangle has
  *         a negative extent or leaves the range of int32_t;
- *         ::SNOW_ERROR_TOO_LARGE where snow_domain_bounds() says so;
+ *         ::SNOW_ERROR_TOO_LARGE where snow_domain_bounds() says so, and for more
+ *         numbers than an array can have on this machine;
  *         ::SNOW_ERROR_BUFFER when capacity is too small, nothing is copied.
  *         Cost: proportional to the rectangle.
  */
@@ -357,7 +358,8 @@ SNOW_API snow_status snow_field_copy(const snow_grid *grid, snow_field field, co
  * @return ::SNOW_OK, ::SNOW_ERROR_NULL, ::SNOW_ERROR_ENUM, ::SNOW_ERROR_BUSY,
  *         ::SNOW_ERROR_NO_MEMORY, ::SNOW_ERROR_MEMORY_LIMIT;
  *         ::SNOW_ERROR_UNSUPPORTED when the field cannot be set;
- *         ::SNOW_ERROR_RECTANGLE; ::SNOW_ERROR_BUFFER when count is not the
+ *         ::SNOW_ERROR_RECTANGLE and ::SNOW_ERROR_TOO_LARGE as in
+ *         snow_field_copy(); ::SNOW_ERROR_BUFFER when count is not the
  *         rectangle's; ::SNOW_ERROR_NOT_FINITE or the model's own status when
  *         a number is out of range.
  */
@@ -470,8 +472,8 @@ SNOW_API snow_status snow_save_to(const snow_grid *grid, snow_writer write, void
  * @brief Makes a grid from what snow_save() wrote.
  *
  * Nothing in the data is trusted: damaged, truncated or hostile data give an
- * error, and never more memory is asked for than a few times the size of the
- * data.
+ * error, and never more memory is asked for than 64 MB and a hundred times the
+ * size of the data; options->memory_limit draws the line closer.
  *
  * @param buffer the data.
  * @param size bytes of data; bytes after the end of the grid are an error.

@@ -109,8 +109,8 @@ SNOW_API void snow_packard_params_init(snow_packard_params *params, size_t struc
  * @param params an initialised scene; rule, and with a suffix domain, width
  *        and height are set, the rest is kept.
  * @param text the rule; spaces around it do not matter.
- * @return ::SNOW_OK, ::SNOW_ERROR_NULL, ::SNOW_ERROR_STRUCT_SIZE;
- *         ::SNOW_ERROR_PACKARD_RULE when it is none of the spellings;
+ * @return ::SNOW_OK, ::SNOW_ERROR_NULL, ::SNOW_ERROR_STRUCT_SIZE,
+ *         ::SNOW_ERROR_STRUCT_TAIL; ::SNOW_ERROR_PACKARD_RULE when it is none of the spellings;
  *         ::SNOW_ERROR_PACKARD_RULE_LENGTH when it has another number of
  *         digits than seven; ::SNOW_ERROR_PACKARD_RULE_DIGIT for digits that
  *         no rule of six neighbours has; ::SNOW_ERROR_PACKARD_RULE_MELTS when

@@ -1,8 +1,14 @@
 /* Steps: walkers one by one until particles have joined. */
 #include "aggregate/model.h"
 
-/* After so many particles, or lost walkers, whoever runs the grid may look at the clock. */
-enum { SLICE = 4096, PATIENCE = 1 << 16 };
+/* After so many particles whoever runs the grid may look at the clock; after fewer where each takes many walkers, or
+   each walker many steps. */
+static int64_t slice(const snow_aggregate_params *params)
+{
+    enum { MOST = 4096, LEAST = 16 };
+    int64_t particles = (int64_t)(MOST * params->sticking) / params->hits;
+    return particles > LEAST ? particles : LEAST;
+}
 
 bool snow_aggregate_stops(const snow_grid *grid, const snow_stop *stop)
 {
@@ -41,7 +47,7 @@ static snow_status send_walker(snow_grid *grid, bool *joined)
 static snow_status send_walkers(snow_grid *grid, int64_t most, const snow_stop *stop)
 {
     int64_t taken = 0;
-    for (int32_t walkers = 0; taken < most && walkers < PATIENCE; walkers++) {
+    for (int32_t walkers = 0; taken < most && walkers < AGGREGATE_TURN; walkers++) {
         bool joined;
         snow_status status = send_walker(grid, &joined);
         if (status != SNOW_OK)
@@ -58,7 +64,8 @@ snow_status snow_aggregate_advance(snow_grid *grid, int64_t most, const snow_sto
     const aggregate *model = aggregate_of(grid);
     if (grid->census.full)
         return SNOW_ERROR_FULL;
-    most = most < SLICE ? most : SLICE;
+    int64_t slice_most = slice(&model->params);
+    most = most < slice_most ? most : slice_most;
     uint64_t room = AGGREGATE_MOST_PARTICLES - model->sites.count;
     most = (uint64_t)most < room ? most : (int64_t)room;
     snow_status status = model->scene->count == NULL ? snow_aggregate_reserve(grid, (uint64_t)most) : SNOW_OK;

@@ -1,5 +1,7 @@
-/* A periodic box of sites, a bit each. Rows repeat their beginning after their
-   end, so that 64 bits can be read from any bit on. */
+/* A periodic box of sites, a bit each. Words hold 64 sites of a row; those of
+   the rows above follow them in memory, so that a block of sites is a run of
+   words. Rows repeat their beginning after their end, so that 64 bits can be
+   read from any bit on. */
 #ifndef SNOW_AGGREGATE_BOX_H
 #define SNOW_AGGREGATE_BOX_H
 
@@ -8,7 +10,7 @@
 typedef struct torus {
     int32_t side;
     int axes;
-    size_t row_words;
+    size_t columns; /* of words, in a layer */
     uint64_t *bits;
 } torus;
 
@@ -20,6 +22,9 @@ enum { SNOW_BOX_WORD = 64 };
 
 snow_status snow_box_start(torus *self, snow_heap *heap, int32_t side, int axes);
 void snow_box_end(torus *self, snow_heap *heap);
+
+/* Takes all sites out. */
+void snow_box_clear(torus *self);
 
 static inline int snow_box_directions(const torus *self)
 {
@@ -51,45 +56,35 @@ static inline size_t snow_box_number(const torus *self, snow_site site)
     return ((size_t)site.z * side + (size_t)site.y) * side + (size_t)site.x;
 }
 
-static inline uint64_t *snow_box_row(const torus *self, int32_t y, int32_t z)
+/* The word that holds a site; that of the site above is the next one, that of the 64 sites to the right lies
+   `side` words on. */
+static inline uint64_t *snow_box_word(const torus *self, snow_site site)
 {
-    return self->bits + ((size_t)z * (size_t)self->side + (size_t)y) * self->row_words;
+    size_t column = (size_t)site.z * self->columns + (uint32_t)site.x / 64;
+    return self->bits + column * (size_t)self->side + (uint32_t)site.y;
 }
 
 static inline bool snow_box_has(const torus *self, snow_site site)
 {
-    return (snow_box_row(self, site.y, site.z)[(uint32_t)site.x / 64] >> ((uint32_t)site.x % 64) & 1) != 0;
+    return (*snow_box_word(self, site) >> ((uint32_t)site.x % 64) & 1) != 0;
 }
 
-/* 64 bits of a row from bit x on, round its end. */
-static inline uint64_t snow_box_read(const uint64_t *row, int32_t x)
+/* A site and the 63 to its right, round the end of the row. */
+static inline uint64_t snow_box_read(const torus *self, snow_site site)
 {
-    const uint64_t *word = row + (uint32_t)x / 64;
-    uint32_t shift = (uint32_t)x % 64;
-    return word[0] >> shift | word[1] << 1 << (63 - shift);
+    const uint64_t *word = snow_box_word(self, site);
+    uint32_t shift = (uint32_t)site.x % 64;
+    return word[0] >> shift | word[self->side] << 1 << (63 - shift);
 }
 
-static inline void snow_box_flip_words(uint64_t *row, int32_t x, uint64_t mask)
-{
-    uint64_t *word = row + (uint32_t)x / 64;
-    uint32_t shift = (uint32_t)x % 64;
-    word[0] ^= mask << shift;
-    word[1] ^= mask >> 1 >> (63 - shift);
-}
-
-/* Flips bits of a row from bit x on, round its end, and what repeats them. */
-static inline void snow_box_flip(const torus *self, uint64_t *row, int32_t x, uint64_t mask)
-{
-    snow_box_flip_words(row, x, mask);
-    if (x < SNOW_BOX_WORD)
-        snow_box_flip_words(row, x + self->side, mask & (UINT64_MAX >> x));
-    if (x + SNOW_BOX_WORD > self->side)
-        snow_box_flip_words(row, 0, mask >> (self->side - x));
-}
+/* Flips sites of `rows` rows, one above the other and not round the top: a mask each for the site in the lowest row
+   and those to its right. */
+void snow_box_flip(const torus *self, snow_site site, const uint64_t *masks, int32_t rows);
 
 static inline void snow_box_flip_site(const torus *self, snow_site site)
 {
-    snow_box_flip(self, snow_box_row(self, site.y, site.z), site.x, 1);
+    const uint64_t mask = 1;
+    snow_box_flip(self, site, &mask, 1);
 }
 
 #endif

@@ -1,6 +1,6 @@
 /* Cluster–cluster aggregation (P. Meakin; M. Kolb, R. Botet and R. Jullien,
    1983): all particles and clusters drift in a periodic box and merge. */
-#include "aggregate/clusters.h"
+#include "aggregate/gaps.h"
 
 static clusters *clusters_of(const snow_grid *grid)
 {
@@ -89,6 +89,12 @@ static uint32_t choose(const clusters *self, snow_stream *stream, double mobilit
     }
 }
 
+/* Clusters that may touch without merging would need more than gaps. */
+static bool knows_gaps(const snow_grid *grid)
+{
+    return aggregate_of(grid)->params.sticking == 1 && snow_gaps_apply(clusters_of(grid));
+}
+
 /* One move; *merged: whether clusters merged. */
 static snow_status move_one(snow_grid *grid, bool *merged)
 {
@@ -98,7 +104,10 @@ static snow_status move_one(snow_grid *grid, bool *merged)
     uint32_t number = choose(self, &stream, model->params.mobility);
     int direction = (int)snow_stream_below(&stream, (uint32_t)snow_box_directions(&self->box));
     uint32_t count;
-    snow_status status = snow_clusters_move(self, &grid->heap, number, direction, model->params.sticking < 1, &count);
+    snow_status status = knows_gaps(grid)
+                             ? snow_clusters_move_few(self, &grid->heap, number, direction, &count)
+                             : snow_clusters_move(self, &grid->heap, number, direction, model->params.sticking < 1,
+                                                  &count);
     if (status != SNOW_OK)
         return status;
     model->walkers++;
@@ -109,13 +118,20 @@ static snow_status move_one(snow_grid *grid, bool *merged)
     return SNOW_OK;
 }
 
+/* About what a move costs, in sites. */
+static uint64_t effort(const snow_grid *grid)
+{
+    const clusters *self = clusters_of(grid);
+    return 16 + (knows_gaps(grid) ? 4 * self->lives : self->largest);
+}
+
 /* Moves of large clusters take long: whoever runs the grid may look at the clock between them. */
-static snow_status grow(snow_grid *grid, int64_t most, const snow_stop *stop)
+static snow_status move_many(snow_grid *grid, int64_t most, const snow_stop *stop)
 {
     enum { PATIENCE = 1 << 26 };
     const clusters *self = clusters_of(grid);
     int64_t merged = 0;
-    for (uint64_t work = 0; merged < most && work < PATIENCE && self->lives > 1; work += 16 + self->largest) {
+    for (uint64_t work = 0; merged < most && work < PATIENCE && self->lives > 1; work += effort(grid)) {
         bool joined;
         snow_status status = move_one(grid, &joined);
         if (status != SNOW_OK)
@@ -129,6 +145,13 @@ static snow_status grow(snow_grid *grid, int64_t most, const snow_stop *stop)
             break;
     }
     return SNOW_OK;
+}
+
+static snow_status grow(snow_grid *grid, int64_t most, const snow_stop *stop)
+{
+    snow_status status = move_many(grid, most, stop);
+    snow_clusters_show(clusters_of(grid));
+    return status;
 }
 
 static uint64_t count(const snow_grid *grid)

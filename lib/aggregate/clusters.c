@@ -1,5 +1,6 @@
 #include "aggregate/clusters.h"
 
+#include "aggregate/gaps.h"
 #include "aggregate/power.h"
 
 #include <string.h>
@@ -73,6 +74,7 @@ void snow_clusters_end(clusters *self, snow_heap *heap)
 {
     for (uint32_t i = 0; self->cluster != NULL && i < self->particles; i++)
         snow_heap_put(heap, self->cluster[i].shape);
+    snow_gaps_end(self, heap);
     snow_shape_maker_end(&self->maker, heap);
     snow_heap_put(heap, self->owner);
     snow_heap_put(heap, self->position);
@@ -209,8 +211,8 @@ void snow_clusters_add(clusters *self, uint32_t particle, snow_site site)
     snow_clusters_close(self, it);
 }
 
-/* Lists a cluster once, in ascending order. */
-static uint32_t list_touched(clusters *self, uint32_t count, uint32_t number)
+/* In ascending order. */
+uint32_t snow_clusters_list(clusters *self, uint32_t count, uint32_t number)
 {
     uint32_t place = count;
     while (place > 0 && self->touched[place - 1] > number)
@@ -230,7 +232,7 @@ uint32_t snow_clusters_find_neighbours(clusters *self, uint32_t number)
     for (int side = 0; side < snow_box_directions(&self->box); side++) {
         uint32_t there = snow_clusters_at(self, snow_box_next(&self->box, site, side));
         if (there != 0 && there != number + 1)
-            count = list_touched(self, count, there - 1);
+            count = snow_clusters_list(self, count, there - 1);
     }
     return count;
 }
@@ -290,6 +292,12 @@ static void shift_small(clusters *self, const cluster *moving, uint32_t mark, in
     }
 }
 
+void snow_clusters_flip(const clusters *self, const cluster *of, const torus *set)
+{
+    for (uint32_t i = 0; i < of->mass; i++)
+        snow_box_flip_site(set, snow_clusters_site(self, of, self->position[self->member[of->first + i]]));
+}
+
 static snow_status give_shape(clusters *self, snow_heap *heap, cluster *it)
 {
     if (it->shape != NULL)
@@ -299,7 +307,15 @@ static snow_status give_shape(clusters *self, snow_heap *heap, cluster *it)
         self->scratch[i] = snow_box_site(
             &self->box, (snow_site){at.x - it->least.x, at.y - it->least.y, at.z - it->least.z});
     }
-    return snow_shape_make(&self->maker, heap, &self->box, self->scratch, it->mass, &it->shape);
+    snow_site extent = {it->greatest.x - it->least.x + 1, it->greatest.y - it->least.y + 1,
+                        it->greatest.z - it->least.z + 1};
+    return snow_shape_make(&self->maker, heap, &self->box, self->scratch, it->mass, extent, &it->shape);
+}
+
+static void take_step(const clusters *self, cluster *moving, int direction)
+{
+    moving->origin = aggregate_moved(moving->origin, snow_box_steps[direction]);
+    settle_origin(self, moving);
 }
 
 snow_status snow_clusters_move(clusters *self, snow_heap *heap, uint32_t number, int direction, bool may_rest,
@@ -314,22 +330,41 @@ snow_status snow_clusters_move(clusters *self, snow_heap *heap, uint32_t number,
     snow_site corner = snow_clusters_site(self, moving, moving->least);
     self->hits = 0;
     if (large)
-        snow_shape_find_touched(moving->shape, &self->box, corner, direction, note_hit, self);
+        snow_shape_find_touched(moving->shape, &self->maker, &self->box, corner, direction, note_hit, self);
     else
         find_hits(self, moving, mark, direction);
     bool blocked = may_rest && self->hits > 0 && keep_obstructions(self, mark, direction);
     *count = 0;
     for (size_t i = 0; i < self->hits; i++)
-        *count = list_touched(self, *count, snow_clusters_at(self, self->hit[i]) - 1);
+        *count = snow_clusters_list(self, *count, snow_clusters_at(self, self->hit[i]) - 1);
     if (blocked)
         return SNOW_OK;
     if (large)
-        snow_shape_step(moving->shape, &self->box, corner, direction);
+        snow_shape_step(moving->shape, &self->maker, &self->box, corner, direction);
     else
         shift_small(self, moving, mark, direction);
-    moving->origin = aggregate_moved(moving->origin, snow_box_steps[direction]);
-    settle_origin(self, moving);
+    take_step(self, moving, direction);
     return SNOW_OK;
+}
+
+snow_status snow_clusters_move_few(clusters *self, snow_heap *heap, uint32_t number, int direction, uint32_t *count)
+{
+    snow_status status = snow_gaps_find_touched(self, heap, number, direction, count);
+    if (status != SNOW_OK)
+        return status;
+    take_step(self, &self->cluster[number], direction);
+    self->stale = true;
+    return SNOW_OK;
+}
+
+void snow_clusters_show(clusters *self)
+{
+    if (!self->stale)
+        return;
+    snow_box_clear(&self->box);
+    for (uint32_t i = 0; i < self->lives; i++)
+        snow_clusters_flip(self, &self->cluster[self->live[i]], &self->box);
+    self->stale = false;
 }
 
 /* Closes the gaps between the members of the clusters that there are. */
@@ -379,7 +414,7 @@ static contact find_contact(const clusters *self, const cluster *small)
         snow_site site = snow_clusters_site(self, small, position);
         for (int side = 0; side < snow_box_directions(&self->box); side++) {
             snow_site next = snow_box_next(&self->box, site, side);
-            if (snow_box_has(&self->box, next) && snow_shape_maker_has(&self->maker, &self->box, next))
+            if (snow_box_has(&self->maker.own, next))
                 return (contact){position, next, side};
         }
     }
@@ -389,11 +424,9 @@ static contact find_contact(const clusters *self, const cluster *small)
 /* What must be added to the small cluster's positions to have them in the large one's frame. */
 static snow_site find_shift(clusters *self, const cluster *large, const cluster *small)
 {
-    for (uint32_t i = 0; i < large->mass; i++)
-        snow_shape_maker_add(&self->maker, &self->box,
-                             snow_clusters_site(self, large, self->position[self->member[large->first + i]]));
+    snow_clusters_flip(self, large, &self->maker.own);
     contact found = find_contact(self, small);
-    snow_shape_maker_clear(&self->maker);
+    snow_clusters_flip(self, large, &self->maker.own);
     uint32_t touched = find_member(self, large, found.site);
     if (touched == large->mass)
         return (snow_site){0, 0, 0};

@@ -50,6 +50,8 @@ typedef struct clusters {
     snow_site *hit;     /* sites that a move has come to touch */
     size_t hits;
     shape_maker maker;
+    struct snow_gaps *gaps; /* gaps.c; NULL: not yet */
+    bool stale; /* the box's bits are older than the last moves */
 } clusters;
 
 snow_status snow_clusters_start(clusters *self, snow_heap *heap, uint32_t particles, double density, int axes);
@@ -69,6 +71,18 @@ snow_site snow_clusters_site(const clusters *self, const cluster *of, snow_site 
    apart, so that something may be in the way. */
 snow_status snow_clusters_move(clusters *self, snow_heap *heap, uint32_t number, int direction, bool may_rest,
                                uint32_t *count);
+
+/* The same where the gaps between few clusters are known; the box's bits and owners are left behind. */
+snow_status snow_clusters_move_few(clusters *self, snow_heap *heap, uint32_t number, int direction, uint32_t *count);
+
+/* The box's bits follow the clusters again. */
+void snow_clusters_show(clusters *self);
+
+/* Puts a cluster's sites into a set of sites, or takes them out. */
+void snow_clusters_flip(const clusters *self, const cluster *of, const torus *set);
+
+/* Adds a cluster to the list of those that are touched, once; returns how many there are. */
+uint32_t snow_clusters_list(clusters *self, uint32_t count, uint32_t number);
 
 /* Lists the clusters that a single particle touches; returns how many. */
 uint32_t snow_clusters_find_neighbours(clusters *self, uint32_t number);

@@ -48,10 +48,13 @@ static bool is_receptive(const snow_grid *grid, snow_site site)
 {
     if (is_filled(grid, site))
         return true;
-    const aggregate_neighbours *around = snow_aggregate_contacts(&aggregate_of(grid)->params);
+    if (!is_inside(grid, site))
+        return false;
+    const snow_aggregate_params *params = &aggregate_of(grid)->params;
+    const aggregate_neighbours *around = snow_aggregate_contacts(params);
     for (int i = 0; i < around->count; i++)
-        if (is_filled(grid, aggregate_moved(site, around->step[i])))
-            return is_inside(grid, site);
+        if (is_filled(grid, snow_aggregate_beside(params, site, around->step[i])))
+            return true;
     return false;
 }
 

@@ -37,24 +37,16 @@ typedef struct harmonic {
     double bound;
 } harmonic;
 
-static void widen(snow_site *low, snow_site *high, snow_site site)
-{
-    low->x = site.x < low->x ? site.x : low->x;
-    low->y = site.y < low->y ? site.y : low->y;
-    low->z = site.z < low->z ? site.z : low->z;
-    high->x = site.x > high->x ? site.x : high->x;
-    high->y = site.y > high->y ? site.y : high->y;
-    high->z = site.z > high->z ? site.z : high->z;
-}
-
 /* A box with the cluster and two free sites round it: there walkers go about freely. */
 static snow_status cover(harmonic *self, const snow_site *sites, size_t count)
 {
     enum { RIM = 2 };
     snow_site low = sites[0];
     snow_site high = sites[0];
-    for (size_t i = 1; i < count; i++)
-        widen(&low, &high, sites[i]);
+    for (size_t i = 1; i < count; i++) {
+        low = snow_site_least(low, sites[i]);
+        high = snow_site_greatest(high, sites[i]);
+    }
     int32_t deep = self->space ? RIM : 0;
     low = (snow_site){low.x - RIM, low.y - RIM, low.z - deep};
     high = (snow_site){high.x + RIM, high.y + RIM, high.z + deep};

@@ -1,25 +1,11 @@
 /* A particle joins: the lists, the census, and whether the scene is at its end. */
 #include "aggregate/model.h"
 
-static int32_t lesser(int32_t a, int32_t b)
-{
-    return a < b ? a : b;
-}
-
-static int32_t greater(int32_t a, int32_t b)
-{
-    return a > b ? a : b;
-}
-
 static void widen_bounds(aggregate *model, snow_census *census, snow_site site)
 {
     bool first = model->sites.count == 1;
-    model->low.x = first ? site.x : lesser(model->low.x, site.x);
-    model->low.y = first ? site.y : lesser(model->low.y, site.y);
-    model->low.z = first ? site.z : lesser(model->low.z, site.z);
-    model->high.x = first ? site.x : greater(model->high.x, site.x);
-    model->high.y = first ? site.y : greater(model->high.y, site.y);
-    model->high.z = first ? site.z : greater(model->high.z, site.z);
+    model->low = first ? site : snow_site_least(model->low, site);
+    model->high = first ? site : snow_site_greatest(model->high, site);
     snow_hexagon_hold(&census->hexagon, site.x, site.y);
 }
 
@@ -58,8 +44,9 @@ void snow_aggregate_join(snow_grid *grid, snow_site site)
     census->frozen = model->sites.count;
     double square = (double)aggregate_square(model, site);
     census->tip_square = square > census->tip_square ? square : census->tip_square;
-    if (snow_aggregate_has_floor(&model->params) && model->params.scene != SNOW_AGGREGATE_SHORE)
-        census->height = greater((int32_t)census->height, aggregate_height(model, site) + 1);
+    bool deposit = snow_aggregate_has_floor(&model->params) && model->params.scene != SNOW_AGGREGATE_SHORE;
+    if (deposit && aggregate_height(model, site) >= census->height)
+        census->height = aggregate_height(model, site) + 1;
     look_at_rim(model, census, site);
 }
 

@@ -1,4 +1,4 @@
-#include "aggregate/model.h"
+#include "aggregate/vessel.h"
 
 const aggregate_neighbours snow_aggregate_four = {4, {{1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}}};
 
@@ -19,6 +19,17 @@ const aggregate_neighbours *snow_aggregate_steps(snow_aggregate_lattice lattice)
     case SNOW_AGGREGATE_CUBIC: return &snow_aggregate_six_in_space;
     }
     return &snow_aggregate_four;
+}
+
+snow_site snow_aggregate_beside(const snow_aggregate_params *params, snow_site site, snow_site step)
+{
+    snow_site next = aggregate_moved(site, step);
+    if (!params->periodic || !snow_aggregate_has_floor(params) || params->scene == SNOW_AGGREGATE_CHIMNEY)
+        return next;
+    if (params->scene == SNOW_AGGREGATE_LINE)
+        return snow_vessel_keep(params, next);
+    next.x = (next.x + params->width) % params->width;
+    return next;
 }
 
 const aggregate_neighbours *snow_aggregate_contacts(const snow_aggregate_params *params)

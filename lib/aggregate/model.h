@@ -126,6 +126,8 @@ extern const aggregate_neighbours snow_aggregate_six_in_space;
 
 /* The steps of a walker on a lattice. */
 const aggregate_neighbours *snow_aggregate_steps(snow_aggregate_lattice lattice);
+/* The site one step away, round the box where its sides are joined. */
+snow_site snow_aggregate_beside(const snow_aggregate_params *params, snow_site site, snow_site step);
 /* The sites that a particle of the scene can sit on. */
 const aggregate_neighbours *snow_aggregate_contacts(const snow_aggregate_params *params);
 snow_point snow_aggregate_point_of(snow_aggregate_lattice lattice, snow_site site);
@@ -155,6 +157,10 @@ void snow_aggregate_follow(snow_grid *grid);
 /* A grid with its seeds; `loading`: for a saved one, whose particles follow. */
 snow_status snow_aggregate_build(const snow_aggregate_params *params, const snow_options *options, bool loading,
                                  snow_grid **grid);
+
+/* A scene that walks step by step sends out so many walkers at the most before whoever runs the grid may look at
+   the clock: each can take milliseconds, and many can be lost before one stays. */
+enum { AGGREGATE_TURN = 64 };
 
 /* advance.c */
 /* Whether the crystal is at its end, or meets a condition; stop may be NULL. */

@@ -104,9 +104,7 @@ static int64_t parent_of(const aggregate *model, const snow_order *order, uint64
     snow_site site = snow_sites_at(&model->sites, number);
     int64_t oldest = (int64_t)number;
     for (int i = 0; i < around->count; i++) {
-        snow_site beside = aggregate_moved(site, around->step[i]);
-        if (model->params.periodic && model->params.scene == SNOW_AGGREGATE_ELECTROLYSIS)
-            beside.x = (beside.x + model->params.width) % model->params.width;
+        snow_site beside = snow_aggregate_beside(&model->params, site, around->step[i]);
         int64_t there = snow_order_find(order, &model->sites, beside);
         oldest = there >= 0 && there < oldest ? there : oldest;
     }

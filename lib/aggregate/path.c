@@ -13,16 +13,6 @@ typedef struct flood {
     bool space;
 } flood;
 
-static int32_t lesser(int32_t a, int32_t b)
-{
-    return a < b ? a : b;
-}
-
-static int32_t greater(int32_t a, int32_t b)
-{
-    return a > b ? a : b;
-}
-
 /* A box that holds cluster and obstacles, with a free rim all round or, in a vessel, above. */
 static void find_box(const aggregate *model, snow_site *low, snow_site *high)
 {
@@ -31,9 +21,8 @@ static void find_box(const aggregate *model, snow_site *low, snow_site *high)
     *low = none ? snow_sites_at(&model->obstacles, 0) : model->low;
     *high = none ? *low : model->high;
     for (uint64_t i = 0; i < model->obstacles.count; i++) {
-        snow_site site = snow_sites_at(&model->obstacles, i);
-        *low = (snow_site){lesser(low->x, site.x), lesser(low->y, site.y), lesser(low->z, site.z)};
-        *high = (snow_site){greater(high->x, site.x), greater(high->y, site.y), greater(high->z, site.z)};
+        *low = snow_site_least(*low, snow_sites_at(&model->obstacles, i));
+        *high = snow_site_greatest(*high, snow_sites_at(&model->obstacles, i));
     }
     if (model->params.scene == SNOW_AGGREGATE_LINE) {
         const snow_aggregate_params *params = &model->params;

@@ -105,7 +105,8 @@ static snow_status grow(snow_grid *grid, int64_t most, const snow_stop *stop)
 
 static snow_status probe(const snow_grid *grid, uint64_t key, uint64_t walker, snow_site *end, bool *ended)
 {
-    *end = snow_growth_probe(jumps_of(grid)->growth, key, walker);
+    const uint64_t other_streams = UINT64_C(1) << 63; /* than those of the growth, also where the keys are the same */
+    *end = snow_growth_probe(jumps_of(grid)->growth, key, walker | other_streams);
     *ended = true;
     return SNOW_OK;
 }

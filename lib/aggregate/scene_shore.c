@@ -92,10 +92,9 @@ static bool send_wave(snow_grid *grid, snow_stream *stream, snow_site *washed)
 
 static snow_status grow(snow_grid *grid, int64_t most, const snow_stop *stop)
 {
-    enum { PATIENCE = 1 << 16 };
     aggregate *model = aggregate_of(grid);
     int64_t washed = 0;
-    for (int32_t waves = 0; washed < most && waves < PATIENCE && !grid->census.full; waves++) {
+    for (int32_t waves = 0; washed < most && waves < AGGREGATE_TURN && !grid->census.full; waves++) {
         snow_stream stream = snow_stream_start(model->params.random_seed, SNOW_RANDOM_WALK, model->walkers++);
         snow_site site;
         if (!send_wave(grid, &stream, &site))

@@ -40,6 +40,17 @@ static inline snow_site snow_site_unpack(bool space, uint64_t packed)
                        (int32_t)(packed >> 42 & mask) - half};
 }
 
+/* The corners of the box that holds both. */
+static inline snow_site snow_site_least(snow_site a, snow_site b)
+{
+    return (snow_site){a.x < b.x ? a.x : b.x, a.y < b.y ? a.y : b.y, a.z < b.z ? a.z : b.z};
+}
+
+static inline snow_site snow_site_greatest(snow_site a, snow_site b)
+{
+    return (snow_site){a.x > b.x ? a.x : b.x, a.y > b.y ? a.y : b.y, a.z > b.z ? a.z : b.z};
+}
+
 static inline uint64_t snow_sites_packed(const snow_sites *sites, uint64_t number)
 {
     return sites->chunk[number / SNOW_SITES_CHUNK][number % SNOW_SITES_CHUNK];

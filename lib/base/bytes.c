@@ -4,7 +4,7 @@
 
 static void flush(snow_sink *sink)
 {
-    if (sink->write != NULL && !sink->failed && sink->filled > 0)
+    if (!sink->failed && sink->filled > 0)
         sink->failed = sink->write(sink->context, sink->staged, sink->filled) != 0;
     sink->filled = 0;
 }
@@ -15,7 +15,6 @@ static void put(snow_sink *sink, uint64_t value, size_t size)
         flush(sink);
     for (size_t i = 0; i < size; i++)
         sink->staged[sink->filled++] = (unsigned char)(value >> (8 * i));
-    sink->total += size;
     snow_digest_add(&sink->checksum, value, size);
 }
 
@@ -24,7 +23,6 @@ void snow_sink_start(snow_sink *sink, snow_writer write, void *context)
     sink->write = write;
     sink->context = context;
     sink->failed = false;
-    sink->total = 0;
     sink->filled = 0;
     snow_digest_start(&sink->checksum);
 }

@@ -10,12 +10,11 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* Collects bytes and hands them to a writer, or, without one, only counts them. */
+/* Collects bytes and hands them to a writer. */
 typedef struct snow_sink {
     snow_writer write;
     void *context;
     bool failed;
-    uint64_t total;
     snow_digest_state checksum;
     size_t filled;
     unsigned char staged[4096];

@@ -3,7 +3,11 @@
 #include "base/cpu.h"
 
 #include <stddef.h>
+#ifdef _WIN32
+#include <windows.h>
+#else
 #include <unistd.h>
+#endif
 
 int snow_isa_available(snow_isa isa)
 {
@@ -46,8 +50,19 @@ snow_isa snow_cpu_best(void)
     return SNOW_ISA_BASELINE;
 }
 
+static long processors(void)
+{
+#ifdef _WIN32
+    SYSTEM_INFO system;
+    GetSystemInfo(&system);
+    return (long)system.dwNumberOfProcessors;
+#else
+    return sysconf(_SC_NPROCESSORS_ONLN);
+#endif
+}
+
 int snow_cpu_count(void)
 {
-    long count = sysconf(_SC_NPROCESSORS_ONLN);
+    long count = processors();
     return count < 1 ? 1 : count > 1024 ? 1024 : (int)count;
 }

@@ -20,12 +20,7 @@ snow_status snow_grid_new(const snow_model_operations *operations, const snow_op
     snow_census_start(&grid->census);
     if (settled.threads > 1 && settled.parallel_for == NULL)
         status = snow_team_start(&grid->team, &grid->heap, settled.threads);
-    if (status != SNOW_OK) {
-        snow_grid_end(grid);
-        return status;
-    }
-    *result = grid;
-    return SNOW_OK;
+    return snow_grid_hand_over(grid, status, result);
 }
 
 void snow_grid_end(snow_grid *grid)
@@ -36,6 +31,15 @@ void snow_grid_end(snow_grid *grid)
     snow_domain_end(&grid->domain, &grid->heap);
     snow_heap heap = grid->heap; /* outlives the block that it stands in */
     snow_heap_put(&heap, grid);
+}
+
+snow_status snow_grid_hand_over(snow_grid *grid, snow_status status, snow_grid **result)
+{
+    if (status == SNOW_OK)
+        *result = grid;
+    else if (grid != NULL)
+        snow_grid_end(grid);
+    return status;
 }
 
 void snow_grid_for(const snow_grid *grid, size_t count, snow_task task, void *argument)

@@ -93,6 +93,8 @@ struct snow_grid {
 /* A grid with settled options and its team, but no domain and no state yet. */
 snow_status snow_grid_new(const snow_model_operations *operations, const snow_options *options, snow_grid **grid);
 void snow_grid_end(snow_grid *grid);
+/* The end of making a grid: `result` receives it if all went well, else it is ended, unless it is NULL. Returns the status. */
+snow_status snow_grid_hand_over(snow_grid *grid, snow_status status, snow_grid **result);
 
 /* Runs count tasks on the grid's threads, or the caller's. */
 void snow_grid_for(const snow_grid *grid, size_t count, snow_task task, void *argument);

@@ -16,10 +16,9 @@ snow_status snow_options_settle(const snow_options *caller, snow_options *settle
 {
     *settled = defaults;
     if (caller != NULL) {
-        snow_status status = snow_struct_check(caller, sizeof defaults, sizeof defaults);
+        snow_status status = snow_struct_take(settled, sizeof *settled, caller);
         if (status != SNOW_OK)
             return status;
-        snow_struct_read(settled, sizeof *settled, caller);
     }
     if ((settled->allocate == NULL) != (settled->release == NULL))
         return SNOW_ERROR_RANGE;

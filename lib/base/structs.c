@@ -32,6 +32,14 @@ void snow_struct_read(void *ours, size_t our_size, const void *caller)
     memcpy(ours, &our_size, sizeof our_size);
 }
 
+snow_status snow_struct_take(void *ours, size_t our_size, const void *caller)
+{
+    snow_status status = snow_struct_check(caller, our_size, our_size);
+    if (status == SNOW_OK)
+        snow_struct_read(ours, our_size, caller);
+    return status;
+}
+
 void snow_struct_write(void *caller, const void *ours, size_t our_size)
 {
     size_t size = size_of(caller);

@@ -21,6 +21,9 @@ snow_status snow_struct_check(const void *caller, size_t smallest, size_t ours);
 /* Copies what the caller knows over the defaults that `ours` already holds. */
 void snow_struct_read(void *ours, size_t our_size, const void *caller);
 
+/* Both, for a struct that has not grown since the first release. */
+snow_status snow_struct_take(void *ours, size_t our_size, const void *caller);
+
 /* Copies to the caller what it knows; its struct_size stays. */
 void snow_struct_write(void *caller, const void *ours, size_t our_size);
 

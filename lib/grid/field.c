@@ -12,6 +12,16 @@ static bool is_sound(const snow_rect *rect)
            (int64_t)rect->r + rect->height <= (int64_t)INT32_MAX + 1;
 }
 
+/* The number of cells, of which an array in memory must be able to hold the values. */
+static snow_status check_rectangle(const snow_rect *rect, size_t *count)
+{
+    if (!is_sound(rect))
+        return SNOW_ERROR_RECTANGLE;
+    uint64_t cells = (uint64_t)rect->width * (uint64_t)rect->height;
+    *count = (size_t)cells;
+    return cells <= SIZE_MAX / sizeof(double) ? SNOW_OK : SNOW_ERROR_TOO_LARGE;
+}
+
 static snow_status can_read(const snow_grid *grid, snow_field field)
 {
     return is_field(field) ? grid->operations->can_read(grid, field) : SNOW_ERROR_ENUM;
@@ -37,14 +47,6 @@ snow_status snow_cell_value(const snow_grid *grid, snow_field field, int32_t q, 
     return status;
 }
 
-/* On 32-bit machines a rectangle can be larger than memory. */
-static bool count_cells(const snow_rect *rect, size_t *count)
-{
-    uint64_t cells = (uint64_t)rect->width * (uint64_t)rect->height;
-    *count = (size_t)cells;
-    return cells <= SIZE_MAX / sizeof(double);
-}
-
 snow_status snow_field_copy(const snow_grid *grid, snow_field field, const snow_rect *rect, double *values,
                             size_t capacity, size_t *count)
 {
@@ -57,8 +59,9 @@ snow_status snow_field_copy(const snow_grid *grid, snow_field field, const snow_
         return SNOW_ERROR_TOO_LARGE;
     rect = rect != NULL ? rect : &grid->domain.bounds;
     size_t cells;
-    if (!is_sound(rect) || !count_cells(rect, &cells))
-        return SNOW_ERROR_RECTANGLE;
+    status = check_rectangle(rect, &cells);
+    if (status != SNOW_OK)
+        return status;
     if (count != NULL)
         *count = cells;
     if (values == NULL)
@@ -82,13 +85,14 @@ snow_status snow_field_set(snow_grid *grid, snow_field field, const snow_rect *r
         return SNOW_ERROR_TOO_LARGE;
     rect = rect != NULL ? rect : &grid->domain.bounds;
     size_t cells;
-    if (!is_sound(rect) || !count_cells(rect, &cells))
-        return SNOW_ERROR_RECTANGLE;
+    snow_status status = check_rectangle(rect, &cells);
+    if (status != SNOW_OK)
+        return status;
     if (count != cells)
         return SNOW_ERROR_BUFFER;
     snow_floating floating;
     snow_floating_enter(&floating);
-    snow_status status = grid->operations->set(grid, field, rect, values);
+    status = grid->operations->set(grid, field, rect, values);
     snow_floating_leave(&floating);
     return status;
 }

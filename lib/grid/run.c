@@ -100,7 +100,7 @@ static int64_t next_look(const snow_grid *grid, const snow_stop *stop)
 /* The callback runs in the caller's own floating-point state. */
 static bool is_cancelled(snow_grid *grid, const snow_stop *stop, double started, const snow_floating *floating)
 {
-    if (stop->progress == NULL || grid->census.steps % stop->progress_steps != 0)
+    if (stop->progress == NULL)
         return false;
     snow_summary summary = summarise(grid, SNOW_STOP_NONE, started);
     snow_floating again;
@@ -116,13 +116,16 @@ static snow_status run(snow_grid *grid, const snow_stop *stop, double started, c
                        snow_stop_reason *reason)
 {
     for (*reason = snow_crystal_stops(grid, stop); *reason == SNOW_STOP_NONE;) {
+        int64_t before = grid->census.steps;
         snow_status status = advance(grid, next_look(grid, stop), stop);
         if (status != SNOW_OK) {
             *reason = SNOW_STOP_UNSTABLE;
             return status;
         }
         *reason = snow_crystal_stops(grid, stop);
-        if (is_cancelled(grid, stop, started, floating) && *reason == SNOW_STOP_NONE)
+        /* A model can work without a step: then whoever waits is told more often. */
+        bool due = grid->census.steps == before || grid->census.steps % stop->progress_steps == 0;
+        if (due && is_cancelled(grid, stop, started, floating) && *reason == SNOW_STOP_NONE)
             *reason = SNOW_STOP_CANCELLED;
         if (*reason == SNOW_STOP_NONE && stop->seconds > 0 && now() - started >= stop->seconds)
             *reason = SNOW_STOP_TIME;
@@ -145,10 +148,9 @@ snow_status snow_stop_read(const snow_stop *caller, snow_stop *stop)
     *stop = stop_defaults;
     if (caller == NULL)
         return SNOW_OK;
-    snow_status status = snow_struct_check(caller, sizeof *stop, sizeof *stop);
+    snow_status status = snow_struct_take(stop, sizeof *stop, caller);
     if (status != SNOW_OK)
         return status;
-    snow_struct_read(stop, sizeof *stop, caller);
     snow_floating floating;
     snow_floating_enter(&floating);
     status = check_stop(stop);

@@ -1,6 +1,7 @@
 #include "base/floating.h"
 #include "base/model.h"
 #include "base/options.h"
+#include "base/stream.h"
 #include "grid/models.h"
 
 #include <string.h>
@@ -30,30 +31,11 @@ snow_status snow_save_to(const snow_grid *grid, snow_writer write, void *context
     return sink.failed ? SNOW_ERROR_WRITE : SNOW_OK;
 }
 
-static int append(void *context, const void *bytes, size_t size)
-{
-    unsigned char **end = context;
-    memcpy(*end, bytes, size);
-    *end += size;
-    return 0;
-}
-
 snow_status snow_save(const snow_grid *grid, void *buffer, size_t capacity, size_t *size)
 {
     if (grid == NULL || size == NULL)
         return SNOW_ERROR_NULL;
-    snow_sink sink;
-    snow_sink_start(&sink, NULL, NULL);
-    save(grid, &sink);
-    if (sink.total > SIZE_MAX)
-        return SNOW_ERROR_TOO_LARGE;
-    *size = (size_t)sink.total;
-    if (buffer == NULL)
-        return SNOW_OK;
-    if (capacity < *size)
-        return SNOW_ERROR_BUFFER;
-    unsigned char *end = buffer;
-    return snow_save_to(grid, append, &end);
+    return snow_save_whole(grid, snow_save_to, buffer, capacity, size);
 }
 
 static uint64_t checksum_of(const unsigned char *bytes, size_t size)
@@ -116,12 +98,7 @@ static snow_status load(const unsigned char *bytes, size_t size, const snow_opti
         status = SNOW_ERROR_DAMAGED;
     if (!intact && status != SNOW_ERROR_TRUNCATED)
         status = SNOW_ERROR_DAMAGED;
-    if (status != SNOW_OK) {
-        snow_destroy(grid);
-        return status;
-    }
-    *result = grid;
-    return SNOW_OK;
+    return snow_grid_hand_over(grid, status, result);
 }
 
 snow_status snow_load(const void *buffer, size_t size, const snow_options *options, snow_grid **grid)

@@ -86,6 +86,19 @@ static int64_t safe_steps(const snow_grid *grid, int64_t most, const snow_stop *
     return greater(most, 1);
 }
 
+/* How many steps the run seems to have left. */
+static int64_t expected_steps(const snow_grid *grid, const snow_stop *stop)
+{
+    if (stop == NULL)
+        return 0;
+    int64_t steps = stop->max_steps >= 0 ? stop->max_steps - grid->census.steps : INT64_MAX;
+    if (stop->tip_radius > 0)
+        steps = lesser(steps, to_distance(grid, stop->tip_radius));
+    if (stop->frozen > 0)
+        steps = lesser(steps, to_frozen(grid, stop->frozen));
+    return steps;
+}
+
 /* The zones of the next step, and how many steps have the same ones. */
 static snow_status change_zones(snow_grid *grid)
 {
@@ -147,11 +160,16 @@ snow_status snow_packard_advance(snow_grid *grid, int64_t most, const snow_stop 
     int64_t step = grid->census.steps + 1;
     int64_t same_zones = snow_packard_zones_last(model, step) - (step - 1);
     int64_t steps = safe_steps(grid, lesser(most, same_zones), stop);
-    snow_status status = snow_packard_choose(grid, &steps);
+    int64_t ahead = greater(steps, lesser(same_zones, expected_steps(grid, stop)));
+    snow_status status = snow_packard_choose(grid, ahead, &steps);
+    steps = safe_steps(grid, steps, stop); /* an engine that cannot go back has to look sooner */
     if (status == SNOW_OK)
         status = change_zones(grid);
     if (status != SNOW_OK)
         return status;
+    bool hurries = stop != NULL && stop->seconds > 0;
+    if (hurries && model->engine->keep != NULL) /* in one go it may take steps for hours */
+        steps = lesser(steps, greater(grid->census.steps, 64));
     bool seeks = stop != NULL && stop->frozen > 0 && model->engine->keep != NULL;
     return seeks ? take_until_frozen(grid, steps, stop) : take(grid, steps);
 }

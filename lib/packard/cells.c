@@ -2,6 +2,8 @@
 #include "base/hexagon.h"
 #include "packard/model.h"
 
+#include <string.h>
+
 enum { BLOCK_ROWS = 64 };
 
 snow_status snow_packard_put(snow_grid *grid, const packard_region *region, const uint64_t *words)
@@ -30,46 +32,23 @@ snow_status snow_packard_count(snow_grid *grid)
     return status;
 }
 
-/* The rotation by 60 degrees and a mirror generate all symmetries. */
-static bool images_are_frozen(const packard *model, int64_t q, int64_t r)
-{
-    const packard_region turned = {-r, q + r, 1, 1};
-    const packard_region mirrored = {r, q, 1, 1};
-    uint64_t word[2];
-    model->engine->copy(model->cells, &turned, &word[0]);
-    model->engine->copy(model->cells, &mirrored, &word[1]);
-    return word[0] != 0 && word[1] != 0;
-}
-
-static bool is_symmetric_row(const packard *model, const packard_region *row)
-{
-    for (int64_t x = 0; x < row->width; x += PACKARD_WORD) {
-        int64_t width = row->width - x < PACKARD_WORD ? row->width - x : PACKARD_WORD;
-        uint64_t word;
-        model->engine->copy(model->cells, &(packard_region){row->q + x, row->r, width, 1}, &word);
-        for (int64_t bit = 0; word != 0; bit++, word >>= 1)
-            if ((word & 1) != 0 && !images_are_frozen(model, row->q + x + bit, row->r))
-                return false;
-    }
-    return true;
-}
-
-bool snow_packard_is_symmetric(const snow_grid *grid)
+/* Where the centre of all symmetries is, if domain, zones and the crystal's extents have them. */
+static packard_fold possible_fold(const snow_grid *grid)
 {
     const packard *model = packard_of(grid);
-    snow_packard_domain domain = model->params.domain;
-    if (domain != SNOW_PACKARD_PLANE && domain != SNOW_PACKARD_DISC && domain != SNOW_PACKARD_HEXAGON)
-        return false;
-    packard_region bounds = snow_packard_bounds(grid);
+    const packard_fold none = {.possible = false};
     const snow_hexagon *hexagon = &grid->census.hexagon;
-    bool centred = bounds.width == bounds.height && hexagon->least_q + hexagon->greatest_q == 0 &&
-                   hexagon->least_r == hexagon->least_q && hexagon->least_s == hexagon->least_q;
-    if (!snow_packard_zones_are_symmetric(model) || bounds.width == 0 || !centred)
-        return false;
-    for (int64_t y = 0; y < bounds.height; y++)
-        if (!is_symmetric_row(model, &(packard_region){bounds.q, bounds.r + y, bounds.width, 1}))
-            return false;
-    return true;
+    bool anywhere = packard_is_plane(model);
+    bool bounded = model->params.domain == SNOW_PACKARD_DISC || model->params.domain == SNOW_PACKARD_HEXAGON;
+    bool lonely = model->params.rule % 2 != 0; /* such a rule needs all cells, those that nothing touches too */
+    if ((!anywhere && !bounded) || lonely || snow_hexagon_is_empty(hexagon))
+        return none;
+    int64_t reach = (hexagon->greatest_q - hexagon->least_q) / 2;
+    packard_fold fold = {true, hexagon->least_q + reach, hexagon->least_r + reach};
+    bool regular = hexagon->greatest_q == fold.q + reach && hexagon->greatest_r == fold.r + reach &&
+                   hexagon->least_s == fold.q + fold.r - reach && hexagon->greatest_s == fold.q + fold.r + reach;
+    bool fits = anywhere || (fold.q == 0 && fold.r == 0);
+    return regular && fits && snow_packard_zones_are_symmetric(model, fold.q, fold.r) ? fold : none;
 }
 
 /* Cells with their freeze steps. */
@@ -89,62 +68,142 @@ static snow_status put_dates(const packard *from, const packard *to, const packa
     return SNOW_OK;
 }
 
+/* Rows of the crystal that are copied at a time, and room for them. */
+typedef struct row_block {
+    packard_region bounds, block;
+    uint64_t *words;
+} row_block;
+
+static snow_status block_start(snow_grid *grid, row_block *rows)
+{
+    rows->bounds = snow_packard_bounds(grid);
+    rows->block = (packard_region){rows->bounds.q, rows->bounds.r, rows->bounds.width, 0};
+    rows->words = snow_heap_get_raw(&grid->heap, packard_words((uint64_t)rows->bounds.width) + 1,
+                                    BLOCK_ROWS * sizeof *rows->words);
+    return rows->words != NULL ? SNOW_OK : grid->heap.refusal;
+}
+
+/* The next rows; false: there are no more. */
+static bool block_next(row_block *rows)
+{
+    rows->block.r += rows->block.height;
+    int64_t left = rows->bounds.r + rows->bounds.height - rows->block.r;
+    rows->block.height = left < BLOCK_ROWS ? left : BLOCK_ROWS;
+    return left > 0;
+}
+
 static snow_status copy_cells(snow_grid *grid, const packard *from, const packard *to)
 {
-    packard_region bounds = snow_packard_bounds(grid);
-    size_t stride = packard_words((uint64_t)bounds.width);
-    if (bounds.height == 0)
-        return SNOW_OK;
-    uint64_t *words = snow_heap_get_raw(&grid->heap, stride, BLOCK_ROWS * sizeof *words);
-    if (words == NULL)
-        return grid->heap.refusal;
-    snow_status status = SNOW_OK;
-    for (int64_t y = 0; y < bounds.height && status == SNOW_OK; y += BLOCK_ROWS) {
-        int64_t rows = bounds.height - y < BLOCK_ROWS ? bounds.height - y : BLOCK_ROWS;
-        packard_region block = {bounds.q, bounds.r + y, bounds.width, rows};
-        from->engine->copy(from->cells, &block, words);
-        status = from->params.record_freeze_steps ? put_dates(from, to, &block, words)
-                                                  : to->engine->put(to->cells, &block, words);
+    row_block rows;
+    snow_status status = block_start(grid, &rows);
+    while (status == SNOW_OK && block_next(&rows)) {
+        from->engine->copy(from->cells, &rows.block, rows.words);
+        status = from->params.record_freeze_steps ? put_dates(from, to, &rows.block, rows.words)
+                                                  : to->engine->put(to->cells, &rows.block, rows.words);
     }
-    snow_heap_put(&grid->heap, words);
+    snow_heap_put(&grid->heap, rows.words);
     return status;
 }
 
-snow_status snow_packard_convert(snow_grid *grid, const packard_engine *engine, bool folded)
+/* The grid with a new engine, or another fold. */
+static snow_status copy_model(snow_grid *grid, const packard_engine *engine, const packard_fold *fold, packard *copy)
 {
-    packard *model = packard_of(grid);
-    packard next = *model;
-    next.engine = engine;
-    next.folded = folded;
-    next.zones_last = 0; /* it has none yet */
-    snow_status status = engine->create(grid, folded, &next.cells);
+    const packard *model = packard_of(grid);
+    *copy = *model;
+    copy->engine = engine;
+    copy->fold = *fold;
+    copy->zones_last = 0; /* it has none yet */
+    snow_status status = engine->create(grid, fold, &copy->cells);
     if (status != SNOW_OK)
         return status;
-    status = copy_cells(grid, model, &next);
-    if (status != SNOW_OK) {
-        engine->destroy(grid, next.cells);
-        return status;
-    }
+    status = copy_cells(grid, model, copy);
+    if (status != SNOW_OK)
+        engine->destroy(grid, copy->cells);
+    return status;
+}
+
+static void replace(snow_grid *grid, const packard *copy)
+{
+    packard *model = packard_of(grid);
     model->engine->destroy(grid, model->cells);
-    *model = next;
-    return SNOW_OK;
+    *model = *copy;
+}
+
+snow_status snow_packard_convert(snow_grid *grid, const packard_engine *engine)
+{
+    packard copy;
+    snow_status status = copy_model(grid, engine, &packard_of(grid)->fold, &copy);
+    if (status == SNOW_OK)
+        replace(grid, &copy);
+    return status;
 }
 
 snow_status snow_packard_unfold(snow_grid *grid)
 {
     packard *model = packard_of(grid);
-    if (model->folded && model->engine == &snow_packard_tiles)
-        return snow_packard_convert(grid, model->engine, false);
-    model->folded = false;
-    return SNOW_OK;
+    const packard_fold none = {.possible = false};
+    if (!model->fold.possible || model->engine != &snow_packard_tiles) {
+        model->fold = none;
+        return SNOW_OK;
+    }
+    packard copy;
+    snow_status status = copy_model(grid, model->engine, &none, &copy);
+    if (status == SNOW_OK)
+        replace(grid, &copy);
+    return status;
+}
+
+static bool are_same_dates(const packard *a, const packard *b, const packard_region *block)
+{
+    for (int64_t r = block->r; r < block->r + block->height; r++)
+        for (int64_t q = block->q; q < block->q + block->width; q++)
+            if (a->engine->date(a->cells, q, r) != b->engine->date(b->cells, q, r))
+                return false;
+    return true;
+}
+
+/* Whether a folded copy shows what is there: then the crystal is symmetric. */
+static bool are_same(const packard *a, const packard *b, row_block *rows, row_block *others)
+{
+    while (block_next(rows) && block_next(others)) {
+        size_t words = packard_words((uint64_t)rows->block.width) * (size_t)rows->block.height;
+        a->engine->copy(a->cells, &rows->block, rows->words);
+        b->engine->copy(b->cells, &rows->block, others->words);
+        if (memcmp(rows->words, others->words, words * sizeof *rows->words) != 0 ||
+            (a->params.record_freeze_steps && !are_same_dates(a, b, &rows->block)))
+            return false;
+    }
+    return true;
+}
+
+static snow_status fold_if_same(snow_grid *grid, const packard *copy, bool *folded)
+{
+    row_block rows, others = {.words = NULL};
+    snow_status status = block_start(grid, &rows);
+    if (status == SNOW_OK)
+        status = block_start(grid, &others);
+    *folded = status == SNOW_OK && are_same(packard_of(grid), copy, &rows, &others);
+    snow_heap_put(&grid->heap, rows.words);
+    snow_heap_put(&grid->heap, others.words);
+    if (*folded)
+        replace(grid, copy);
+    return status;
 }
 
 snow_status snow_packard_settle(snow_grid *grid)
 {
-    packard *model = packard_of(grid);
+    const packard *model = packard_of(grid);
     snow_status status = snow_packard_count(grid);
-    if (status != SNOW_OK || model->engine != &snow_packard_tiles)
+    packard_fold fold = possible_fold(grid);
+    if (status != SNOW_OK || model->engine != &snow_packard_tiles || !fold.possible)
         return status;
-    bool folds = model->params.rule % 2 == 0; /* a rule that freezes lonely cells needs all of them */
-    return folds && snow_packard_is_symmetric(grid) ? snow_packard_convert(grid, &snow_packard_tiles, true) : SNOW_OK;
+    packard copy;
+    status = copy_model(grid, model->engine, &fold, &copy);
+    if (status != SNOW_OK)
+        return status;
+    bool folded;
+    status = fold_if_same(grid, &copy, &folded);
+    if (!folded)
+        copy.engine->destroy(grid, copy.cells);
+    return status;
 }

@@ -3,33 +3,46 @@
  *
  * Work is measured in cells of area, as the tiles have it: what they do in a
  * run grows with the area that the crystal comes to fill. Of the quadtree what
- * counts is what it must remember, and that is known only afterwards; so it is
- * given steps up to the next power of two at a time, and what these have taken
- * is carried forward. No clock is read: the choice is the same every time.
+ * counts is what it must remember, and that is known only afterwards. So it is
+ * given a few steps, then as many again, and so on, while it is watched what
+ * each doubling of the crystal takes; that is carried forward. When it stays
+ * well below what the tiles would need, the quadtree gets the rest; when it has
+ * had its share and does not, it is left. No clock is read: the choice is the
+ * same every time.
  */
 #include "packard/model.h"
 
-/* The tiles fill so many cells while the quadtree makes a node. */
-static const double cells_a_node = 330;
+#include <math.h>
 
-/* Until it can be judged it has this to do: for each frozen cell, or for each
-   cell of the hexagon, whichever is less; and it may be this part of what the
-   tiles have to do. */
+/* The tiles fill so many cells while the quadtree makes a node or finds a result. */
+static const double cells_a_node = 160;
+
+/* Making the quadtree of a crystal that stands takes so much for each frozen
+   cell, or for each cell of the hexagon, whichever is less. */
 static const double start_for_frozen = 3e5;
 static const double start_for_area = 5;
+
+/* These parts of what the tiles would have to do may be spent on making the
+   quadtree, and on trying it. */
 static const double start_share = 0.2;
+static const double trial_share = 0.08;
 
 /* Below this the tiles are through before the quadtree can show what it is good for. */
 static const double least_work = 3e6;
 
-/* The quadtree is left when it seems to take this much longer than the tiles would. */
-static const double patience = 1.2;
+/* The trial ends early when the quadtree will need only this part of what the tiles need. */
+static const double clear_share = 0.5;
+
+/* What counts as twice the size. */
+static const double doubled = 1.9;
 
 enum {
-    FIRST_CHUNK = 16,
-    FIRST_LOOK = 256, /* no quadtree is judged by fewer steps */
+    FIRST_TRIAL = 64, /* steps */
     FEW_STEPS = 256
 };
+
+/* Where it was left, it is tried again for so much larger crystals. */
+static const double second_chance = 8;
 
 /* Crystals farther out are not taken from the quadtree to the tiles. */
 static const int64_t greatest_reach = INT64_C(1) << 22;
@@ -47,8 +60,7 @@ static snow_status use(snow_grid *grid, const packard_engine *engine)
         return SNOW_OK;
     if (engine == &snow_packard_tiles && !fits_tiles(grid))
         return SNOW_ERROR_TOO_LARGE;
-    model->watched = false;
-    return snow_packard_convert(grid, engine, model->folded);
+    return snow_packard_convert(grid, engine);
 }
 
 /* Cells of a hexagon round the crystal after so many steps more. */
@@ -62,7 +74,7 @@ static double area_after(const snow_grid *grid, int64_t steps)
 static double tile_work(const snow_grid *grid, int64_t steps)
 {
     double area = area_after(grid, steps) - area_after(grid, 0);
-    return area / (packard_of(grid)->folded ? 12 : 1) / grid->options.threads;
+    return area / (packard_of(grid)->fold.possible ? 12 : 1) / grid->options.threads;
 }
 
 static double start_work(const snow_grid *grid)
@@ -76,85 +88,116 @@ static double start_work(const snow_grid *grid)
 static bool suits_quadtree(const snow_grid *grid)
 {
     const packard *model = packard_of(grid);
-    return packard_is_plane(model) && !model->params.record_freeze_steps && !model->left_quadtree &&
+    return packard_is_plane(model) && !model->params.record_freeze_steps &&
            !snow_packard_zones_apply(model, grid->census.steps + 1);
 }
 
-/* What the quadtree will do if its work goes on growing from one doubling of
-   the steps to the next as it did, less and less: as a power of their number. */
-static double projected_work(const packard *model, int64_t done, int64_t steps)
+/* As far as the crystal can reach, from its middle. */
+static double size_of(const snow_grid *grid)
 {
-    double growth = model->work_before > 0 ? model->work / model->work_before : 2;
-    growth = growth < 1.1 ? 1.1 : growth > 4 ? 4 : growth;
-    double doublings = 0;
-    for (double end = 1; end < (double)done; end *= 2)
-        doublings++;
-    double chunk = model->work;
-    double total = 0;
-    double number = doublings;
-    for (double end = (double)done; end < (double)done + (double)steps; end *= 2) {
-        number++;
-        chunk *= 1 + (growth - 1) * doublings / number;
-        total += chunk;
-    }
-    return total;
+    packard_region bounds = snow_packard_bounds(grid);
+    return 0.5 * (double)(bounds.width > bounds.height ? bounds.width : bounds.height);
 }
 
-/* Looks at what the last steps took of the quadtree; whether it is to go on. */
-static bool goes_on(snow_grid *grid, int64_t steps)
+static bool is_worth_a_trial(const snow_grid *grid, int64_t ahead)
 {
-    packard *model = packard_of(grid);
-    if (model->watched) {
-        model->work_before = model->work;
-        model->work = cells_a_node * (double)(snow_packard_tree_work(model->cells) - model->nodes);
-    }
-    if (!model->watched || grid->census.steps < FIRST_LOOK || !fits_tiles(grid))
-        return true;
-    return projected_work(model, grid->census.steps, steps) <= patience * tile_work(grid, steps);
+    const packard_trial *trial = &packard_of(grid)->trial;
+    double work = tile_work(grid, ahead);
+    return work >= least_work && start_share * work >= start_work(grid) &&
+           size_of(grid) + (double)ahead >= second_chance * trial->left_for;
 }
 
-static void watch(snow_grid *grid)
+static snow_status begin_trial(snow_grid *grid)
 {
-    packard *model = packard_of(grid);
-    if (!model->watched)
-        model->work = model->work_before = 0;
-    model->watched = true;
-    model->nodes = snow_packard_tree_work(model->cells);
-}
-
-/* Steps up to the next power of two. */
-static int64_t chunk_after(int64_t done)
-{
-    int64_t end = FIRST_CHUNK;
-    while (end <= done)
-        end *= 2;
-    return end - done;
-}
-
-static snow_status choose_freely(snow_grid *grid, int64_t *steps)
-{
-    packard *model = packard_of(grid);
-    bool tree = model->engine == &snow_packard_quadtree;
-    if (!suits_quadtree(grid))
-        return use(grid, &snow_packard_tiles);
-    if (!tree && (tile_work(grid, *steps) < least_work || start_share * tile_work(grid, *steps) < start_work(grid)))
-        return SNOW_OK;
-    if (tree && *steps < FEW_STEPS && area_after(grid, 0) < least_work)
-        return use(grid, &snow_packard_tiles);
-    if (tree && !goes_on(grid, *steps)) {
-        model->left_quadtree = true;
-        return use(grid, &snow_packard_tiles);
-    }
     snow_status status = use(grid, &snow_packard_quadtree);
-    if (status != SNOW_OK)
-        return status;
-    watch(grid);
-    int64_t chunk = chunk_after(grid->census.steps);
-    *steps = *steps < chunk ? *steps : chunk;
+    if (status == SNOW_OK)
+        packard_of(grid)->trial = (packard_trial){.first_step = grid->census.steps, .first_size = size_of(grid)};
+    return status;
+}
+
+/* To base 2, near enough, and the same on every machine: a straight line from each power to the next. */
+static double logarithm(double x)
+{
+    int exponent;
+    double part = frexp(x, &exponent);
+    return exponent - 2 + 2 * part;
+}
+
+static double power(double base, double exponent)
+{
+    double result = exponent * logarithm(base);
+    return ldexp(1 + result - floor(result), (int)floor(result));
+}
+
+/* Notes what the quadtree has done. Whether that is enough to see how its work grows. */
+static bool look(const snow_grid *grid, packard_trial *trial)
+{
+    const packard *model = packard_of(grid);
+    packard_effort *mark = trial->mark;
+    trial->now = (packard_effort){trial->first_size + (double)(grid->census.steps - trial->first_step),
+                                  cells_a_node * (double)snow_packard_tree_work(model->cells)};
+    if (trial->now.size >= doubled * mark[0].size) {
+        mark[2] = mark[1];
+        mark[1] = mark[0];
+        mark[0] = trial->now;
+    }
+    return mark[2].size > 0;
+}
+
+/* What a doubling of the size took. */
+static double effort_between(const packard_effort *before, const packard_effort *after)
+{
+    return (after->work - before->work) / logarithm(after->size / before->size);
+}
+
+/* What the quadtree will do in the steps ahead, if from one doubling to the next its work grows as it did. */
+static double tree_work(const packard_trial *trial, int64_t ahead)
+{
+    const packard_effort *mark = trial->mark;
+    double last = effort_between(&mark[1], &mark[0]);
+    double before = effort_between(&mark[2], &mark[1]);
+    double growth = power(last / before, 1 / logarithm(mark[0].size / mark[1].size));
+    growth = growth > 1.05 ? growth : 1.05;
+    double doublings = logarithm((trial->now.size + (double)ahead) / mark[0].size);
+    double sum = growth * (power(growth, doublings) - 1) / (growth - 1);
+    return mark[0].work + last * sum - trial->now.work;
+}
+
+/* Tries the quadtree, or goes on with it: *steps of those ahead. */
+static snow_status use_quadtree(snow_grid *grid, int64_t ahead, int64_t *steps)
+{
+    packard_trial *trial = &packard_of(grid)->trial;
+    int64_t taken = grid->census.steps - trial->first_step;
+    bool informed = taken > 0 && look(grid, trial);
+    double tiles = tile_work(grid, ahead);
+    double tree = informed ? tree_work(trial, ahead) : 0;
+    if (informed && tree > tiles && trial->now.work >= trial_share * tiles && fits_tiles(grid)) {
+        trial->left_for = trial->now.size + (double)ahead;
+        return use(grid, &snow_packard_tiles);
+    }
+    trial->passed = trial->passed || (informed && tree <= clear_share * tiles);
+    int64_t chunk = taken < FIRST_TRIAL ? FIRST_TRIAL : taken;
+    if (!trial->passed && chunk < *steps)
+        *steps = chunk;
     return SNOW_OK;
 }
 
-snow_status snow_packard_choose(snow_grid *grid, int64_t *steps)
+static snow_status choose_freely(snow_grid *grid, int64_t ahead, int64_t *steps)
+{
+    packard *model = packard_of(grid);
+    bool tree = model->engine == &snow_packard_quadtree;
+    bool few = ahead < FEW_STEPS && area_after(grid, 0) < least_work;
+    if (!suits_quadtree(grid))
+        return use(grid, &snow_packard_tiles);
+    if (!tree && !is_worth_a_trial(grid, ahead))
+        return SNOW_OK;
+    if (tree && few)
+        return use(grid, &snow_packard_tiles);
+    snow_status status = tree ? SNOW_OK : begin_trial(grid);
+    return status == SNOW_OK ? use_quadtree(grid, ahead, steps) : status;
+}
+
+snow_status snow_packard_choose(snow_grid *grid, int64_t ahead, int64_t *steps)
 {
     const packard *model = packard_of(grid);
     bool zones = snow_packard_zones_apply(model, grid->census.steps + 1);
@@ -164,5 +207,5 @@ snow_status snow_packard_choose(snow_grid *grid, int64_t *steps)
     case SNOW_PACKARD_ENGINE_QUADTREE: return use(grid, zones ? &snow_packard_tiles : &snow_packard_quadtree);
     case SNOW_PACKARD_ENGINE_AUTO: break;
     }
-    return choose_freely(grid, steps);
+    return choose_freely(grid, ahead, steps);
 }

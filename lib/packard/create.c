@@ -55,7 +55,7 @@ static snow_status build(snow_grid *grid, const snow_packard_params *params, int
     model->rim_distance = snow_packard_rim_distance(params);
     snow_status status = build_domain(grid, params);
     if (status == SNOW_OK)
-        status = model->engine->create(grid, false, &model->cells);
+        status = model->engine->create(grid, &model->fold, &model->cells);
     return status;
 }
 
@@ -68,13 +68,7 @@ snow_status snow_packard_build(const snow_packard_params *params, const snow_opt
         status = snow_grid_new(&snow_packard_operations, options, &grid);
     if (status == SNOW_OK)
         status = build(grid, params, steps);
-    if (status != SNOW_OK) {
-        if (grid != NULL)
-            snow_grid_end(grid);
-        return status;
-    }
-    *result = grid;
-    return SNOW_OK;
+    return snow_grid_hand_over(grid, status, result);
 }
 
 static void destroy(snow_grid *grid)
@@ -103,10 +97,9 @@ snow_status snow_packard_create(const snow_packard_params *caller, const snow_op
     if (caller == NULL || result == NULL)
         return SNOW_ERROR_NULL;
     snow_packard_params params;
-    snow_status status = snow_struct_check(caller, sizeof params, sizeof params);
+    snow_status status = snow_struct_take(&params, sizeof params, caller);
     if (status != SNOW_OK)
         return status;
-    snow_struct_read(&params, sizeof params, caller);
 
     snow_floating floating;
     snow_floating_enter(&floating);
@@ -117,10 +110,5 @@ snow_status snow_packard_create(const snow_packard_params *caller, const snow_op
     if (status == SNOW_OK)
         status = snow_packard_settle(grid);
     snow_floating_leave(&floating);
-    if (status != SNOW_OK) {
-        snow_destroy(grid);
-        return status;
-    }
-    *result = grid;
-    return SNOW_OK;
+    return snow_grid_hand_over(grid, status, result);
 }

@@ -14,9 +14,9 @@ static uint8_t rule_of(const snow_grid *grid)
     return (uint8_t)packard_of(grid)->params.rule;
 }
 
-static snow_status create(snow_grid *grid, bool folded, void **result)
+static snow_status create(snow_grid *grid, const packard_fold *fold, void **result)
 {
-    (void)folded; /* it finds out what is alike by itself */
+    (void)fold; /* it finds out what is alike by itself */
     snow_quadtree *tree;
     snow_status status = snow_quadtree_create(&grid->heap, rule_of(grid), &tree);
     if (status == SNOW_OK)

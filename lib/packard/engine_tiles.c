@@ -94,7 +94,7 @@ static void destroy(snow_grid *grid, void *engine)
     snow_heap_put(&grid->heap, cells);
 }
 
-static snow_status create(snow_grid *grid, bool folded, void **result)
+static snow_status create(snow_grid *grid, const packard_fold *fold, void **result)
 {
     const packard *model = packard_of(grid);
     tile_cells *cells = snow_heap_get(&grid->heap, 1, sizeof *cells);
@@ -104,7 +104,9 @@ static snow_status create(snow_grid *grid, bool folded, void **result)
     snow_tiles_plan plan = {
         .freezes = (uint8_t)model->params.rule,
         .isa = grid->options.isa,
-        .folded = folded,
+        .folded = fold->possible,
+        .fold_q = fold->q,
+        .fold_r = fold->r,
         .dated = model->params.record_freeze_steps != 0,
         .mask = packard_has_rim(model) ? mask : NULL,
         .mask_context = cells,
@@ -164,10 +166,17 @@ static int64_t date(const void *engine, int64_t q, int64_t r)
 
 static snow_status advance(void *engine, int64_t steps, int64_t *taken)
 {
-    tile_cells *cells = engine;
-    int64_t before = snow_tiles_steps(cells->tiles);
-    snow_status status = snow_tiles_advance(cells->tiles, steps);
-    *taken = snow_tiles_steps(cells->tiles) - before;
+    enum { ENOUGH_VISITS = 1 << 17 };
+    snow_tiles *tiles = ((tile_cells *)engine)->tiles;
+    int64_t before = snow_tiles_steps(tiles);
+    uint64_t visits = snow_tiles_visits(tiles);
+    snow_status status = SNOW_OK;
+    *taken = 0;
+    while (status == SNOW_OK && *taken < steps && snow_tiles_visits(tiles) - visits < ENOUGH_VISITS) {
+        int64_t part = *taken > 0 ? *taken : 1;
+        status = snow_tiles_advance(tiles, part < steps - *taken ? part : steps - *taken);
+        *taken = snow_tiles_steps(tiles) - before;
+    }
     return status;
 }
 

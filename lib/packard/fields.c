@@ -137,13 +137,13 @@ static snow_status set_frozen(snow_grid *grid, const snow_rect *rect, const doub
 {
     packard *model = packard_of(grid);
     packard next = *model;
-    next.folded = false;
+    next.fold = (packard_fold){.possible = false};
     next.zones_last = 0;
     next.engine = model->engine == &snow_packard_reference ? model->engine : &snow_packard_tiles;
     packard_region bounds = joined(snow_packard_bounds(grid), rect);
     if (bounds.width > INT32_MAX || bounds.height > INT32_MAX)
         return SNOW_ERROR_TOO_LARGE;
-    snow_status status = next.engine->create(grid, false, &next.cells);
+    snow_status status = next.engine->create(grid, &next.fold, &next.cells);
     if (status != SNOW_OK)
         return status;
     for (int64_t y = 0; y < bounds.height && status == SNOW_OK; y++)

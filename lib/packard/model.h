@@ -44,13 +44,19 @@ typedef struct packard_region {
     int64_t width, height;
 } packard_region;
 
+/* A scene that has all twelve symmetries of the hexagon, about a cell, and keeps
+   them: an engine may compute one twelfth of it. */
+typedef struct packard_fold {
+    bool possible;
+    int64_t q, r; /* the cell */
+} packard_fold;
+
 /* What computes the steps. The cells are the engine's own; the heap and all
    that is not cells is the grid's. */
 typedef struct packard_engine {
     snow_packard_engine name;
-    /* An empty plane at the grid's step count; folded: of a scene that has and
-       keeps all twelve symmetries about the origin. */
-    snow_status (*create)(snow_grid *grid, bool folded, void **cells);
+    /* An empty plane at the grid's step count. */
+    snow_status (*create)(snow_grid *grid, const packard_fold *fold, void **cells);
     void (*destroy)(snow_grid *grid, void *cells);
     /* Freezes the cells whose bits are set. On failure some are. */
     snow_status (*put)(void *cells, const packard_region *region, const uint64_t *words);
@@ -59,7 +65,8 @@ typedef struct packard_engine {
     void (*copy)(const void *cells, const packard_region *region, uint64_t *words);
     /* −1: not frozen. Only of grids that record it. */
     int64_t (*date)(const void *cells, int64_t q, int64_t r);
-    /* Takes steps in which the same zones apply. On failure *taken says how many were. */
+    /* Takes so many steps, in which the same zones apply, or stops after a part of them, so that a caller with little
+       time is asked. *taken says how many were taken, also on failure. */
     snow_status (*advance)(void *cells, int64_t steps, int64_t *taken);
     /* Other zones apply in the next step than in the last. On failure the old ones do. */
     snow_status (*change_zones)(void *cells);
@@ -76,6 +83,20 @@ extern const packard_engine snow_packard_reference;
 extern const packard_engine snow_packard_tiles;
 extern const packard_engine snow_packard_quadtree;
 
+/* What the quadtree had done when the crystal had some size. */
+typedef struct packard_effort {
+    double size, work;
+} packard_effort;
+
+/* How the quadtree gets on, for the choice of engine. */
+typedef struct packard_trial {
+    int64_t first_step; /* when it began */
+    double first_size;
+    packard_effort now, mark[3]; /* and when the size had doubled, newest first; 0: not yet */
+    bool passed;
+    double left_for; /* the size for which it was left; 0: it was not */
+} packard_trial;
+
 typedef struct packard {
     snow_packard_params params; /* checked; pointers cleared after creation */
     packard_zone *zones;
@@ -85,12 +106,8 @@ typedef struct packard {
 
     const packard_engine *engine;
     void *cells;
-    /* How the quadtree got on, for the choice of engine. */
-    bool watched;        /* it has taken steps since it was chosen */
-    bool left_quadtree;  /* it took too much, and is not chosen again */
-    uint64_t nodes;      /* that it had made before the last of these steps */
-    double work_before, work; /* that they and the last ones took, in cells of area */
-    bool folded; /* the scene has all symmetries of the hexagon, and the engine may make use of it */
+    packard_trial trial;
+    packard_fold fold;
 } packard;
 
 static inline packard *packard_of(const snow_grid *grid)
@@ -148,12 +165,10 @@ snow_status snow_packard_count(snow_grid *grid);
 snow_status snow_packard_settle(snow_grid *grid);
 /* The region of all frozen cells, or an empty one. */
 packard_region snow_packard_bounds(const snow_grid *grid);
-/* Goes on with another engine, or another fold. On failure nothing has changed. */
-snow_status snow_packard_convert(snow_grid *grid, const packard_engine *engine, bool folded);
+/* Goes on with another engine. On failure nothing has changed. */
+snow_status snow_packard_convert(snow_grid *grid, const packard_engine *engine);
 /* From here on the scene counts as one without symmetry. On failure nothing has changed. */
 snow_status snow_packard_unfold(snow_grid *grid);
-/* Whether frozen cells, domain and zones have all symmetries of the hexagon. */
-bool snow_packard_is_symmetric(const snow_grid *grid);
 
 /* rim.c */
 int64_t snow_packard_rim_distance(const snow_packard_params *params);
@@ -161,7 +176,7 @@ int64_t snow_packard_rim_distance(const snow_packard_params *params);
 bool snow_packard_is_at_rim(const snow_grid *grid);
 
 /* engine_quadtree.c */
-/* Nodes that the quadtree has made so far. */
+/* What the quadtree has done so far: nodes made and results found. */
 uint64_t snow_packard_tree_work(const void *cells);
 /* What a saved grid holds of a crystal in the quadtree. */
 void snow_packard_tree_save(void *cells, snow_sink *sink);
@@ -169,8 +184,8 @@ snow_status snow_packard_tree_load(snow_grid *grid, snow_source *source, void **
 
 /* choose.c */
 /* Chooses the engine for the next steps, of which at most *steps are to be
-   taken; may ask for fewer. */
-snow_status snow_packard_choose(snow_grid *grid, int64_t *steps);
+   taken; may ask for fewer. So many steps seem to lie ahead. */
+snow_status snow_packard_choose(snow_grid *grid, int64_t ahead, int64_t *steps);
 
 /* advance.c */
 snow_status snow_packard_advance(snow_grid *grid, int64_t most, const snow_stop *stop);
@@ -185,7 +200,8 @@ bool snow_packard_zones_apply(const packard *model, int64_t step);
 int64_t snow_packard_zones_last(const packard *model, int64_t step);
 /* Whether later steps have zones that may let cells freeze that do not freeze now. */
 bool snow_packard_zones_pend(const packard *model, int64_t step);
-bool snow_packard_zones_are_symmetric(const packard *model);
+/* Whether the zones have all symmetries of the hexagon about a cell. */
+bool snow_packard_zones_are_symmetric(const packard *model, int64_t q, int64_t r);
 /* A zone from the caller's description, its cells copied. */
 snow_status snow_packard_zone_read(const snow_packard_zone *zone, snow_heap *heap, packard_zone *copy);
 /* Takes over the zone. */

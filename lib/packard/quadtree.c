@@ -308,7 +308,7 @@ snow_status snow_quadtree_measure(snow_quadtree *tree, quadtree_measures *measur
 
 uint64_t snow_quadtree_work(const snow_quadtree *tree)
 {
-    return tree->made;
+    return tree->work;
 }
 
 bool snow_quadtree_get(const snow_quadtree *tree, int64_t q, int64_t r)

@@ -67,7 +67,7 @@ snow_status snow_quadtree_measure(snow_quadtree *tree, quadtree_measures *measur
 void snow_quadtree_keep(snow_quadtree *tree);
 void snow_quadtree_restore(snow_quadtree *tree);
 
-/* Nodes and leaves made since the tree was created: what has been done so far, on every machine the same. */
+/* What has been done since the tree was created, on every machine the same: nodes and leaves made, results found. */
 uint64_t snow_quadtree_work(const snow_quadtree *tree);
 
 /* Writes the crystal, each different part of it once. Needs no memory; some

@@ -147,6 +147,7 @@ static quadtree_ref later_middle(snow_quadtree *tree, int level, uint32_t index)
 static quadtree_ref find_result(snow_quadtree *tree, int level, uint32_t index)
 {
     size_t held = tree->live_count;
+    tree->work++;
     quadtree_hold(tree, level, index);
     quadtree_ref result = level == QUADTREE_BASE_LEVEL ? base_result(tree, index) : later_middle(tree, level, index);
     quadtree_at(tree, index)->result = result;
@@ -157,8 +158,10 @@ static quadtree_ref find_result(snow_quadtree *tree, int level, uint32_t index)
 /* Results of 2^exponent steps from now on: forgets those of high levels that are not. */
 static void set_exponent(snow_quadtree *tree, int exponent)
 {
+    enum { LOOKS = 20 /* at nodes, take as long as finding a result */ };
     int same = (exponent < tree->exponent ? exponent : tree->exponent) + 2 - QUADTREE_LEAF_LEVEL;
     if (exponent != tree->exponent) {
+        tree->work += tree->next_fresh / LOOKS;
         for (uint32_t index = 1; index < tree->next_fresh; index++) {
             int height = *quadtree_state(tree, index) & QUADTREE_HEIGHT;
             if (height > same && height > 0 && height != QUADTREE_FREE)

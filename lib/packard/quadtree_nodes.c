@@ -240,7 +240,7 @@ static quadtree_ref add(snow_quadtree *tree, quadtree_table *table, uint64_t has
     memcpy(node, contents, size);
     *quadtree_state(tree, index) = (uint8_t)(level - QUADTREE_LEAF_LEVEL);
     enter(table, hash, index);
-    tree->made++;
+    tree->work++;
     return kind | index;
 }
 

@@ -111,7 +111,7 @@ struct snow_quadtree {
     quadtree_crystal now, kept;
     int exponent;        /* results of high levels are 2^exponent steps ahead */
     int collections;     /* since the call began */
-    uint64_t made;       /* nodes and leaves so far */
+    uint64_t work;       /* nodes and leaves made, results found, and the like */
     snow_status failure; /* why the last node could not be made */
 
     uint64_t *front; /* what bounds are found in */

@@ -193,7 +193,7 @@ static snow_status load_root(loading *with)
         return SNOW_ERROR_TRUNCATED;
     if (status != SNOW_OK)
         return status;
-    bool sound = level >= QUADTREE_LEAST_ROOT;
+    bool sound = true;
     for (int i = 0; i < SIDES; i++)
         sound = sound && root.side[i] == tree->empty[level];
     if (!sound)

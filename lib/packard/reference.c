@@ -87,9 +87,9 @@ static snow_rect first_rectangle(const snow_grid *grid)
     return packard_is_plane(packard_of(grid)) ? (snow_rect){-8, -8, 16, 16} : grid->domain.bounds;
 }
 
-static snow_status create(snow_grid *grid, bool folded, void **result)
+static snow_status create(snow_grid *grid, const packard_fold *fold, void **result)
 {
-    (void)folded; /* every cell is kept all the same */
+    (void)fold; /* every cell is kept all the same */
     reference *cells = snow_heap_get(&grid->heap, 1, sizeof *cells);
     if (cells == NULL)
         return grid->heap.refusal;
@@ -247,11 +247,15 @@ static snow_status take_step(reference *cells, int64_t step)
 
 static snow_status advance(void *engine, int64_t steps, int64_t *taken)
 {
+    const int64_t enough_cells = 1 << 22;
     reference *cells = engine;
     int64_t before = cells->grid->census.steps;
+    int64_t visited = 0;
     snow_status status = SNOW_OK;
-    for (*taken = 0; *taken < steps && status == SNOW_OK; *taken += status == SNOW_OK)
+    for (*taken = 0; *taken < steps && visited < enough_cells && status == SNOW_OK; *taken += status == SNOW_OK) {
         status = take_step(cells, before + *taken + 1);
+        visited += cells->width * cells->height;
+    }
     return status;
 }
 

@@ -1,7 +1,6 @@
 /* Patterns in run-length encoding, in. */
 #include "base/floating.h"
-#include "base/options.h"
-#include "base/reader.h"
+#include "base/stream.h"
 #include "base/structs.h"
 #include "packard/rle.h"
 
@@ -240,12 +239,7 @@ static snow_status load(rle_reader *reader, const snow_options *options, snow_gr
         status = read_cells(reader, grid);
     if (status == SNOW_OK)
         status = snow_packard_settle(grid);
-    if (status != SNOW_OK) {
-        snow_destroy(grid);
-        return status;
-    }
-    *result = grid;
-    return SNOW_OK;
+    return snow_grid_hand_over(grid, status, result);
 }
 
 /* The scene without what the pattern stands for. */
@@ -254,10 +248,9 @@ static snow_status read_params(const snow_packard_params *caller, snow_packard_p
     snow_packard_params_init(params, sizeof *params);
     if (caller == NULL)
         return SNOW_OK;
-    snow_status status = snow_struct_check(caller, sizeof *params, sizeof *params);
+    snow_status status = snow_struct_take(params, sizeof *params, caller);
     if (status != SNOW_OK)
         return status;
-    snow_struct_read(params, sizeof *params, caller);
     params->seeds = NULL;
     params->seed_count = 0;
     params->cluster = params->scatter = 0;
@@ -285,17 +278,11 @@ snow_status snow_packard_load_rle_from(snow_reader read, void *context, const sn
 {
     if (read == NULL || grid == NULL)
         return SNOW_ERROR_NULL;
-    snow_options settled;
-    snow_status status = snow_options_settle(options, &settled);
+    snow_text text;
+    snow_status status = snow_text_read(&text, read, context, options);
     if (status != SNOW_OK)
         return status;
-    snow_heap heap;
-    snow_heap_start(&heap, &settled);
-    unsigned char *text;
-    size_t size;
-    status = snow_reader_all(read, context, &heap, &text, &size);
-    if (status == SNOW_OK)
-        status = snow_packard_load_rle(text, size, params, options, grid);
-    snow_heap_put(&heap, text);
+    status = snow_packard_load_rle(text.bytes, text.size, params, options, grid);
+    snow_text_end(&text);
     return status;
 }

@@ -1,4 +1,5 @@
 /* Patterns in run-length encoding, out. */
+#include "base/stream.h"
 #include "packard/rle.h"
 
 #include <string.h>
@@ -6,10 +7,9 @@
 enum { STAGED = 4096, LINE = 70, TOKEN = 24, CHUNK = 64 /* words of a row that are read at a time */ };
 
 typedef struct rle_writer {
-    snow_writer write; /* NULL: the bytes are only counted */
+    snow_writer write;
     void *context;
     bool failed;
-    uint64_t total;
     size_t filled;
     char staged[STAGED];
     size_t column;
@@ -20,7 +20,7 @@ typedef struct rle_writer {
 
 static void flush(rle_writer *writer)
 {
-    if (writer->write != NULL && !writer->failed && writer->filled > 0)
+    if (!writer->failed && writer->filled > 0)
         writer->failed = writer->write(writer->context, writer->staged, writer->filled) != 0;
     writer->filled = 0;
 }
@@ -31,7 +31,6 @@ static void put_text(rle_writer *writer, const char *text)
         if (writer->filled == STAGED)
             flush(writer);
         writer->staged[writer->filled++] = *text;
-        writer->total++;
     }
 }
 
@@ -187,14 +186,6 @@ snow_status snow_packard_save_rle_to(const snow_grid *grid, snow_writer write, v
     return writer.failed ? SNOW_ERROR_WRITE : SNOW_OK;
 }
 
-static int append(void *context, const void *bytes, size_t size)
-{
-    unsigned char **end = context;
-    memcpy(*end, bytes, size);
-    *end += size;
-    return 0;
-}
-
 snow_status snow_packard_save_rle(const snow_grid *grid, void *buffer, size_t capacity, size_t *size)
 {
     snow_status status = check(grid);
@@ -202,15 +193,5 @@ snow_status snow_packard_save_rle(const snow_grid *grid, void *buffer, size_t ca
         return status;
     if (size == NULL)
         return SNOW_ERROR_NULL;
-    rle_writer counter = {.write = NULL};
-    write_pattern(&counter, grid);
-    if (counter.total > SIZE_MAX)
-        return SNOW_ERROR_TOO_LARGE;
-    *size = (size_t)counter.total;
-    if (buffer == NULL)
-        return SNOW_OK;
-    if (capacity < *size)
-        return SNOW_ERROR_BUFFER;
-    unsigned char *end = buffer;
-    return snow_packard_save_rle_to(grid, append, &end);
+    return snow_save_whole(grid, snow_packard_save_rle_to, buffer, capacity, size);
 }

@@ -152,10 +152,9 @@ snow_status snow_packard_params_rule(snow_packard_params *caller, const char *te
     if (caller == NULL || text == NULL)
         return SNOW_ERROR_NULL;
     snow_packard_params params;
-    snow_status status = snow_struct_check(caller, sizeof params, sizeof params);
+    snow_status status = snow_struct_take(&params, sizeof params, caller);
     if (status != SNOW_OK)
         return status;
-    snow_struct_read(&params, sizeof params, caller);
     status = snow_packard_rule_read(text, &params);
     if (status == SNOW_OK)
         snow_struct_write(caller, &params, sizeof params);

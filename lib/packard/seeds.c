@@ -65,39 +65,67 @@ static int64_t greater(int64_t a, int64_t b)
     return a > b ? a : b;
 }
 
-/* Cells of the rhombus that belong to the interior. */
-static int64_t cells_of_rhombus(const snow_grid *grid, int64_t side)
+/* The cells of the rhombus that belong to the interior. */
+typedef struct scatter_place {
+    int64_t side;        /* of the rhombus */
+    int64_t top, height; /* rows that both have */
+    int64_t longest;     /* row */
+    int64_t cells;
+} scatter_place;
+
+static snow_run_of_cells row_of_place(const snow_grid *grid, int64_t side, int64_t r)
 {
+    int32_t first = (int32_t)-(side / 2);
+    snow_run_of_cells run = {first, (int32_t)(first + side), 0};
     if (packard_is_plane(packard_of(grid)))
-        return side * side;
-    int64_t first = -(side / 2);
-    int64_t cells = 0;
-    for (int64_t r = first; r < first + side; r++) {
-        snow_run_of_cells run = snow_domain_row(&grid->domain, r);
-        cells += greater(0, lesser(run.end, first + side) - greater(run.first, first));
-    }
-    return cells;
+        return run;
+    snow_run_of_cells inside = snow_domain_row(&grid->domain, r);
+    run.first = (int32_t)greater(run.first, inside.first);
+    run.end = (int32_t)greater(run.first, lesser(run.end, inside.end));
+    return run;
 }
 
-/* Cells that are frozen already, or outside, are drawn again. */
+static scatter_place find_place(const snow_grid *grid, int64_t side)
+{
+    scatter_place place = {.side = side, .top = -(side / 2), .height = side, .longest = side, .cells = side * side};
+    if (packard_is_plane(packard_of(grid)))
+        return place;
+    int64_t end = lesser(place.top + side, (int64_t)grid->domain.top + grid->domain.rows);
+    place.top = greater(place.top, grid->domain.top);
+    place.height = greater(0, end - place.top);
+    place.longest = place.cells = 0;
+    for (int64_t r = place.top; r < end; r++) {
+        snow_run_of_cells run = row_of_place(grid, side, r);
+        place.longest = greater(place.longest, run.end - run.first);
+        place.cells += run.end - run.first;
+    }
+    return place;
+}
+
+/* Rows and columns that both have are drawn, so that no draw takes long, however little that is of the rhombus. Cells
+   that are frozen already, and columns beyond the end of a shorter row, are drawn again. */
+static snow_status scatter_cell(snow_grid *grid, uint64_t seed, const scatter_place *place, int32_t i)
+{
+    for (uint32_t turn = 0;; turn++) {
+        double column = snow_random_at(seed, SNOW_RANDOM_SCATTER, i, 0, turn);
+        double row = snow_random_at(seed, SNOW_RANDOM_SCATTER, i, 1, turn);
+        int64_t r = place->top + (int64_t)(row * (double)place->height);
+        snow_run_of_cells run = row_of_place(grid, place->side, r);
+        int64_t q = run.first + (int64_t)(column * (double)place->longest);
+        if (q < run.end && !is_frozen(grid, q, r))
+            return put_cell(grid, q, r);
+    }
+}
+
 static snow_status plant_scatter(snow_grid *grid, const snow_packard_params *params)
 {
-    int32_t side = params->scatter_side;
-    if (params->scatter > (cells_of_rhombus(grid, side) + 1) / 2)
+    scatter_place place = find_place(grid, params->scatter_side);
+    if (params->scatter > (place.cells + 1) / 2)
         return SNOW_ERROR_PACKARD_SCATTER;
-    for (int32_t i = 0; i < params->scatter; i++) {
-        int32_t q, r;
-        uint32_t turn = 0;
-        do {
-            q = (int32_t)(snow_random_at(params->random_seed, SNOW_RANDOM_SCATTER, i, 0, turn) * side) - side / 2;
-            r = (int32_t)(snow_random_at(params->random_seed, SNOW_RANDOM_SCATTER, i, 1, turn) * side) - side / 2;
-            turn++;
-        } while (!packard_has_cell(grid, q, r) || is_frozen(grid, q, r));
-        snow_status status = put_cell(grid, q, r);
-        if (status != SNOW_OK)
-            return status;
-    }
-    return SNOW_OK;
+    snow_status status = SNOW_OK;
+    for (int32_t i = 0; i < params->scatter && status == SNOW_OK; i++)
+        status = scatter_cell(grid, params->random_seed, &place, i);
+    return status;
 }
 
 snow_status snow_packard_plant(snow_grid *grid, const snow_packard_params *params)

@@ -1,5 +1,6 @@
 /* What a saved grid of Packard's model holds: the scene, the zones, then the
    frozen cells: of the quadtree its different squares, otherwise rows of bits. */
+#include "base/hexagon.h"
 #include "packard/model.h"
 #include "packard/quadtree.h"
 
@@ -240,6 +241,53 @@ static bool is_sound_place(int64_t first, uint64_t count)
     return first > -limit && first < limit && count < (uint64_t)limit;
 }
 
+/* The reference takes a byte and more for each cell of a rectangle, and few bytes can tell of a large one: then the
+   tiles, which give the same cells, take its place. */
+static bool is_dear(const snow_source *source, int64_t width, int64_t height)
+{
+    const int64_t cheap = INT64_C(1) << 20;
+    const int64_t cells_a_byte = 8;
+    double most = (double)cheap + (double)cells_a_byte * (double)snow_source_left(source);
+    return (double)width * (double)height > most;
+}
+
+/* On the plane the rectangle grows from the origin to the crystal, with a margin as wide as itself. */
+static bool is_dear_on_the_plane(const snow_source *source, const packard_region *crystal)
+{
+    int64_t width = snow_hexagon_magnitude(crystal->q) + crystal->width;
+    int64_t height = snow_hexagon_magnitude(crystal->r) + crystal->height;
+    int64_t side = 2 * (width > height ? width : height);
+    return is_dear(source, side, side);
+}
+
+static bool is_dear_domain(const snow_source *source, const snow_packard_params *params)
+{
+    int64_t side = 3 * (int64_t)params->radius;
+    switch (params->domain) {
+    case SNOW_PACKARD_PLANE: return false;
+    case SNOW_PACKARD_DISC:
+    case SNOW_PACKARD_HEXAGON: return is_dear(source, side, side);
+    case SNOW_PACKARD_RECTANGLE: return is_dear(source, (int64_t)params->width + params->height / 2, params->height);
+    case SNOW_PACKARD_RHOMBUS:
+    case SNOW_PACKARD_TORUS: break;
+    }
+    return is_dear(source, params->width, params->height);
+}
+
+static snow_status use_tiles(snow_grid *grid)
+{
+    packard *model = packard_of(grid);
+    void *cells;
+    snow_status status = snow_packard_tiles.create(grid, false, &cells);
+    if (status != SNOW_OK)
+        return status;
+    model->engine->destroy(grid, model->cells);
+    model->engine = &snow_packard_tiles;
+    model->cells = cells;
+    model->params.engine = SNOW_PACKARD_ENGINE_TILES;
+    return SNOW_OK;
+}
+
 static snow_status load_rows(snow_source *source, snow_grid *grid)
 {
     int64_t q = (int64_t)snow_source_u64(source);
@@ -253,7 +301,10 @@ static snow_status load_rows(snow_source *source, snow_grid *grid)
     uint64_t words = (width + PACKARD_WORD - 1) / PACKARD_WORD;
     if (words > 0 && height > snow_source_left(source) / sizeof(uint64_t) / words)
         return SNOW_ERROR_TRUNCATED;
+    const packard_region crystal = {q, r, (int64_t)width, (int64_t)height};
     snow_status status = SNOW_OK;
+    if (packard_of(grid)->engine == &snow_packard_reference && is_dear_on_the_plane(source, &crystal))
+        status = use_tiles(grid);
     for (int64_t y = 0; y < (int64_t)height && status == SNOW_OK; y++)
         status = load_row(source, grid, &(packard_region){q, r + y, (int64_t)width, 1});
     return status == SNOW_OK && source->truncated ? SNOW_ERROR_TRUNCATED : status;
@@ -296,15 +347,11 @@ snow_status snow_packard_load(snow_source *source, const snow_options *options, 
     snow_status status = load_scene(source, &scene);
     if (status != SNOW_OK)
         return status;
+    if (scene.params.engine == SNOW_PACKARD_ENGINE_REFERENCE && is_dear_domain(source, &scene.params))
+        scene.params.engine = SNOW_PACKARD_ENGINE_TILES;
     snow_grid *grid = NULL;
     status = snow_packard_build(&scene.params, options, scene.steps, &grid);
     if (status == SNOW_OK)
         status = load_all(source, &scene, grid);
-    if (status != SNOW_OK) {
-        if (grid != NULL)
-            snow_grid_end(grid);
-        return status;
-    }
-    *result = grid;
-    return SNOW_OK;
+    return snow_grid_hand_over(grid, status, result);
 }

@@ -34,8 +34,9 @@ typedef struct snow_tiles_plan {
     int64_t width, height;
 
     /* Only a twelfth of the plane is kept. Seeds and masks must have all twelve
-       symmetries of the hexagon about the centre. Setting a cell sets its images. */
+       symmetries of the hexagon about this cell. Setting a cell sets its images. */
     bool folded;
+    int64_t fold_q, fold_r;
 
     int64_t centre_q, centre_r; /* distances are measured from here */
 
@@ -55,7 +56,7 @@ typedef struct snow_tiles_census {
     uint64_t frozen;
     int64_t least_q, greatest_q, least_r, greatest_r;
     int64_t least_s, greatest_s; /* s = q + r */
-    uint64_t tip_square; /* greatest squared distance from the centre */
+    uint64_t tip_square; /* greatest squared distance from the centre; right up to a distance of 2^31 */
 } snow_tiles_census;
 
 /* The heap must outlive the tiles. OK, or the heap's refusal. */

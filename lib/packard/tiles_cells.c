@@ -108,7 +108,7 @@ static int64_t next_turn(int64_t q, int64_t r)
     return next;
 }
 
-/* The images of the cells from (q, r), as seen from the centre, as far as they lie in a line. */
+/* The images of the cells from (q, r), as seen from the centre of the symmetries, as far as they lie in a line. */
 static kept_run run_from(int64_t q, int64_t r, size_t most)
 {
     kept_run run = {.q = q, .r = r};
@@ -145,8 +145,8 @@ static size_t read_in_tile(const snow_tiles *tiles, const kept_run *run, uint64_
 
 static void folded_row(const snow_tiles *tiles, int64_t q, int64_t r, size_t count, uint64_t *bits)
 {
-    q -= tiles->plan.centre_q;
-    r -= tiles->plan.centre_r;
+    q -= tiles->plan.fold_q;
+    r -= tiles->plan.fold_r;
     for (size_t i = 0; i < count;) {
         kept_run run = run_from(q + (int64_t)i, r, count - i);
         while (run.count > 0) {
@@ -181,11 +181,11 @@ void snow_tiles_row(const snow_tiles *tiles, int64_t q, int64_t r, size_t count,
         plain_row(tiles, q, r, count, bits);
 }
 
-/* Of a folded plane only the cells q >= r >= 0, from the centre, are put. */
+/* Of a folded plane only the cells q >= r >= 0, from the centre of its symmetries, are put. */
 static size_t first_to_put(const snow_tiles *tiles, int64_t q, int64_t r, size_t count)
 {
-    int64_t from_q = q - tiles->plan.centre_q;
-    int64_t from_r = r - tiles->plan.centre_r;
+    int64_t from_q = q - tiles->plan.fold_q;
+    int64_t from_r = r - tiles->plan.fold_r;
     if (!tiles->plan.folded || from_q >= from_r)
         return tiles->plan.folded && from_r < 0 ? count : 0;
     return from_r - from_q < (int64_t)count && from_r >= 0 ? (size_t)(from_r - from_q) : count;

@@ -42,17 +42,16 @@ static void widen(int64_t *least, int64_t *greatest, int64_t value)
 
 static snow_tiles_census widened(const snow_tiles *tiles, snow_tiles_census census, int64_t kept_q, int64_t kept_r)
 {
-    int64_t kept_from_q = tiles->plan.folded ? kept_q : kept_q - tiles->plan.centre_q;
-    int64_t kept_from_r = tiles->plan.folded ? kept_r : kept_r - tiles->plan.centre_r;
+    const snow_tiles_plan *plan = &tiles->plan;
     for (int image = 0; image < images(tiles); image++) {
-        int64_t from_q, from_r;
-        snow_hexagon_image(image, kept_from_q, kept_from_r, &from_q, &from_r);
-        int64_t q = tiles->plan.centre_q + from_q;
-        int64_t r = tiles->plan.centre_r + from_r;
+        int64_t q, r;
+        snow_hexagon_image(image, kept_q, kept_r, &q, &r);
+        q += plan->folded ? plan->fold_q : 0;
+        r += plan->folded ? plan->fold_r : 0;
         widen(&census.least_q, &census.greatest_q, q);
         widen(&census.least_r, &census.greatest_r, r);
         widen(&census.least_s, &census.greatest_s, q + r);
-        uint64_t square = square_of(from_q, from_r);
+        uint64_t square = square_of(q - plan->centre_q, r - plan->centre_r);
         census.tip_square = square > census.tip_square ? square : census.tip_square;
     }
     return census;

@@ -53,8 +53,8 @@ tile_place snow_tiles_locate(const snow_tiles *tiles, int64_t q, int64_t r)
         q = wrapped(q, tiles->plan.width);
         r = wrapped(r, tiles->plan.height);
     } else if (tiles->plan.folded) {
-        q -= tiles->plan.centre_q;
-        r -= tiles->plan.centre_r;
+        q -= tiles->plan.fold_q;
+        r -= tiles->plan.fold_r;
         snow_tiles_fold(&q, &r);
     }
     return snow_tiles_place(q, r);
@@ -222,8 +222,8 @@ static void ask(const snow_tiles *tiles, const snow_tile *tile, snow_tile_mask m
 {
     memset(answer->allowed, 0xFF, sizeof answer->allowed);
     memset(answer->priority, 0, sizeof answer->priority);
-    int64_t q = (int64_t)tile->q * SNOW_TILE_SIDE + (tiles->plan.folded ? tiles->plan.centre_q : 0);
-    int64_t r = (int64_t)tile->r * SNOW_TILE_SIDE + (tiles->plan.folded ? tiles->plan.centre_r : 0);
+    int64_t q = (int64_t)tile->q * SNOW_TILE_SIDE + (tiles->plan.folded ? tiles->plan.fold_q : 0);
+    int64_t r = (int64_t)tile->r * SNOW_TILE_SIDE + (tiles->plan.folded ? tiles->plan.fold_r : 0);
     answer->any = mask != NULL && mask(context, q, r, answer->allowed, answer->priority);
 }
 

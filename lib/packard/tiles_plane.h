@@ -44,7 +44,7 @@ typedef struct tile_place {
     unsigned x, y;
 } tile_place;
 
-/* Moves a cell, seen from the centre, to its image in the sector q >= r >= 0. */
+/* Moves a cell, seen from the centre of the symmetries, to its image in the sector q >= r >= 0. */
 void snow_tiles_fold(int64_t *q, int64_t *r);
 tile_place snow_tiles_place(int64_t q, int64_t r);
 /* Where the cell, or the image of it that is kept, is. */

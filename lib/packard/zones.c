@@ -182,11 +182,11 @@ bool snow_packard_zones_pend(const packard *model, int64_t step)
     return false;
 }
 
-bool snow_packard_zones_are_symmetric(const packard *model)
+bool snow_packard_zones_are_symmetric(const packard *model, int64_t q, int64_t r)
 {
     for (size_t i = 0; i < model->zone_count; i++) {
         const packard_zone *zone = &model->zones[i];
-        if (zone->shape == SNOW_PACKARD_CELLS || zone->centre.q != 0 || zone->centre.r != 0)
+        if (zone->shape == SNOW_PACKARD_CELLS || zone->centre.q != q || zone->centre.r != r)
             return false;
     }
     return true;
@@ -290,7 +290,7 @@ snow_status snow_packard_zone_keep(snow_grid *grid, const packard_zone *zone)
     if (status != SNOW_OK)
         return status;
     model->zones[model->zone_count++] = *zone;
-    if (!snow_packard_zones_are_symmetric(model))
+    if (!snow_packard_zones_are_symmetric(model, model->fold.q, model->fold.r))
         status = snow_packard_unfold(grid);
     if (status != SNOW_OK) {
         model->zone_count--;
@@ -319,10 +319,9 @@ snow_status snow_packard_add_zone(snow_grid *grid, const snow_packard_zone *call
     if (grid->busy)
         return SNOW_ERROR_BUSY;
     snow_packard_zone zone;
-    status = snow_struct_check(caller, sizeof zone, sizeof zone);
+    status = snow_struct_take(&zone, sizeof zone, caller);
     if (status != SNOW_OK)
         return status;
-    snow_struct_read(&zone, sizeof zone, caller);
     packard_zone copy = {.cells = NULL};
     snow_floating floating;
     snow_floating_enter(&floating);

@@ -185,5 +185,4 @@ void snow_reiter_merge_additions(snow_grid *grid)
         merge(&cell, reiter_addition(model, model->engine->number(grid, q, r)), keeps_low);
         model->engine->put(grid, q, r, &cell);
     }
-    model->engine->settle(grid);
 }

@@ -7,12 +7,11 @@ snow_status snow_reiter_conditions_of(const snow_grid *grid, snow_reiter_conditi
     if (grid == NULL || caller == NULL)
         return SNOW_ERROR_NULL;
     snow_reiter_conditions conditions;
-    snow_status status = snow_struct_check(caller, sizeof conditions, sizeof conditions);
+    snow_status status = snow_struct_take(&conditions, sizeof conditions, caller);
     if (status != SNOW_OK)
         return status;
     if (grid->operations != &snow_reiter_operations)
         return SNOW_ERROR_UNSUPPORTED;
-    snow_struct_read(&conditions, sizeof conditions, caller);
     const snow_reiter_params *params = &reiter_of(grid)->params;
     conditions.background = params->background;
     conditions.addition = params->addition;
@@ -121,14 +120,13 @@ snow_status snow_reiter_change(snow_grid *grid, const snow_reiter_conditions *ca
     if (grid == NULL || caller == NULL)
         return SNOW_ERROR_NULL;
     snow_reiter_conditions conditions;
-    snow_status status = snow_struct_check(caller, sizeof conditions, sizeof conditions);
+    snow_status status = snow_struct_take(&conditions, sizeof conditions, caller);
     if (status != SNOW_OK)
         return status;
     if (grid->operations != &snow_reiter_operations)
         return SNOW_ERROR_UNSUPPORTED;
     if (grid->busy)
         return SNOW_ERROR_BUSY;
-    snow_struct_read(&conditions, sizeof conditions, caller);
     if (conditions.rescale != 0 && conditions.rescale != 1)
         return SNOW_ERROR_RANGE;
     snow_floating floating;

@@ -190,6 +190,7 @@ static snow_status set_additions(snow_grid *grid, const snow_rect *rect, const d
     if (status != SNOW_OK)
         return status;
     snow_reiter_merge_additions(grid);
+    reiter_of(grid)->engine->settle(grid);
     visit(grid, &grid->domain, rect, values, put_addition);
     grid->census.still = false;
     return SNOW_OK;

@@ -57,12 +57,13 @@ static inline row_cells load_row(const element *at)
     return cells;
 }
 
-/* What flows into the cells of a row, a multiple of the quantum. The sum is
-   exact (doc/reiter.md), so its order is free. */
-static inline vector inflow(vector above_sum, row_cells row, vector below_sum, const constants *with)
+/* What flows into a cell, a multiple of the quantum, from the four cells above it
+   and the four below it: each of the two groups holds two neighbours on the
+   outside, then the cell itself and one beside it. So six neighbours and twice
+   the cell. The sums are exact (doc/reiter.md), so their order is free. */
+static inline vector inflow(vector above_group, vector below_group, vector here, const constants *with)
 {
-    vector level = row.left + row.right;
-    return flow_of(level + less_six(above_sum + below_sum, row.here, with), with);
+    return flow_of(less_eight(above_group + below_group, here, with), with);
 }
 
 /* All ones in the lanes of a chunk that a mask names, from lane `first` on. */
@@ -89,9 +90,20 @@ static inline bool any(lanes flags)
 #endif
 }
 
-static inline lanes is_beyond(vector value, vector limit)
+/* Where the band of a segment stands, in the field that is read and in the one that is written. */
+typedef struct band_place {
+    const element *row;
+    const element *above, *below; /* the rows next to it */
+    element *next;
+    size_t stride; /* from row to row */
+} band_place;
+
+static inline band_place place_of(const reiter_flow *flow, const reiter_segment *segment)
 {
-    return ~((value <= limit) & (value >= -limit));
+    const element *vapour = flow->vapour;
+    element *next = flow->next;
+    return (band_place){vapour + segment->row, vapour + segment->above, vapour + segment->below, next + segment->row,
+                        segment->stride};
 }
 
 /* The four rows of a band at one place, each with the flow that it gets. */
@@ -100,19 +112,26 @@ typedef struct band_flow {
     vector flow[REITER_BAND];
 } band_flow;
 
-static inline band_flow flow_at(const element *row, const element *above, const element *below, size_t stride,
-                                const constants *with)
+/* A row's group below is the group above of the next. */
+static inline band_flow flow_at(const band_place *band, size_t i, const constants *with)
 {
+    const element *row = band->row + i;
+    const element *above = band->above + i;
+    const element *below = band->below + i;
+    size_t stride = band->stride;
     row_cells r0 = load_row(row);
+    vector g0 = (load_aligned(above) + load(above + 1)) + (r0.left + r0.here);
     row_cells r1 = load_row(row + stride);
-    vector above_sum = load_aligned(above) + load(above + 1);
-    vector f0 = inflow(above_sum, r0, r1.left + r1.here, with);
+    vector g1 = (r0.here + r0.right) + (r1.left + r1.here);
+    vector f0 = inflow(g0, g1, r0.here, with);
     row_cells r2 = load_row(row + 2 * stride);
-    vector f1 = inflow(r0.here + r0.right, r1, r2.left + r2.here, with);
+    vector g2 = (r1.here + r1.right) + (r2.left + r2.here);
+    vector f1 = inflow(g1, g2, r1.here, with);
     row_cells r3 = load_row(row + 3 * stride);
-    vector f2 = inflow(r1.here + r1.right, r2, r3.left + r3.here, with);
-    vector below_sum = load(below - 1) + load_aligned(below);
-    vector f3 = inflow(r2.here + r2.right, r3, below_sum, with);
+    vector g3 = (r2.here + r2.right) + (r3.left + r3.here);
+    vector f2 = inflow(g2, g3, r2.here, with);
+    vector g4 = (r3.here + r3.right) + (load(below - 1) + load_aligned(below));
+    vector f3 = inflow(g3, g4, r3.here, with);
     return (band_flow){{r0.here, r1.here, r2.here, r3.here}, {f0, f1, f2, f3}};
 }
 
@@ -125,62 +144,58 @@ static inline bool is_full(const reiter_segment *segment)
 
 static void full_segment(const reiter_flow *flow, const reiter_segment *segment)
 {
-    const element *vapour = flow->vapour;
-    const element *row = vapour + segment->row;
-    const element *above = vapour + segment->above;
-    const element *below = vapour + segment->below;
-    element *next = (element *)flow->next + segment->row;
-    size_t stride = segment->stride;
+    const band_place band = place_of(flow, segment);
     constants with = constants_of(flow);
     for (size_t i = 0; i < (size_t)segment->chunks * REITER_CHUNK; i += LANES) {
-        band_flow band = flow_at(row + i, above + i, below + i, stride, &with);
-        store_aligned(next + i, band.here[0] + band.flow[0]);
-        store_aligned(next + stride + i, band.here[1] + band.flow[1]);
-        store_aligned(next + 2 * stride + i, band.here[2] + band.flow[2]);
-        store_aligned(next + 3 * stride + i, band.here[3] + band.flow[3]);
+        band_flow at = flow_at(&band, i, &with);
+        for (size_t own = 0; own < REITER_BAND; own++)
+            store_aligned(band.next + own * band.stride + i, at.here[own] + at.flow[own]);
     }
 }
 
-/* One chunk, of which the masks name the cells; says whether anything flows. */
-static inline bool masked_chunk(const reiter_flow *flow, const reiter_segment *segment, size_t shift)
+/* The chunk of a segment of which the masks name the cells; says whether anything flows. */
+static inline bool masked_chunk(const reiter_flow *flow, const reiter_segment *segment)
 {
-    const element *vapour = flow->vapour;
-    const element *row = vapour + segment->row + shift;
-    const element *above = vapour + segment->above + shift;
-    const element *below = vapour + segment->below + shift;
-    element *next = (element *)flow->next + segment->row + shift;
+    const band_place band = place_of(flow, segment);
     constants with = constants_of(flow);
     lanes flowing = {0};
     for (int i = 0; i < REITER_CHUNK; i += LANES) {
-        band_flow band = flow_at(row + i, above + i, below + i, segment->stride, &with);
+        band_flow at = flow_at(&band, (size_t)i, &with);
         for (int own = 0; own < REITER_BAND; own++) {
-            vector flowed = (vector)((lanes)band.flow[own] & lanes_of(segment->mask[own], i));
+            vector flowed = (vector)((lanes)at.flow[own] & lanes_of(segment->mask[own], i));
             flowing |= is_beyond(flowed, with.tolerance);
-            store_aligned(next + (size_t)own * segment->stride + i, band.here[own] + flowed);
+            store_aligned(band.next + (size_t)own * band.stride + i, at.here[own] + flowed);
         }
     }
     return any(flowing);
 }
 
-/* One chunk of which all cells are computed; says whether anything flows. */
-static inline bool full_chunk(const reiter_flow *flow, const reiter_segment *segment, size_t shift, bool tolerates)
+/* A chunk of which all cells are computed; says whether anything flows. */
+static inline bool full_chunk(const band_place *band, size_t shift, const constants *with, bool tolerates)
 {
-    const element *vapour = flow->vapour;
-    const element *row = vapour + segment->row + shift;
-    const element *above = vapour + segment->above + shift;
-    const element *below = vapour + segment->below + shift;
-    element *next = (element *)flow->next + segment->row + shift;
-    constants with = constants_of(flow);
     lanes flowing = {0};
-    for (int i = 0; i < REITER_CHUNK; i += LANES) {
-        band_flow band = flow_at(row + i, above + i, below + i, segment->stride, &with);
-        for (int own = 0; own < REITER_BAND; own++) {
+    for (size_t i = shift; i < shift + REITER_CHUNK; i += LANES) {
+        band_flow at = flow_at(band, i, with);
+        for (size_t own = 0; own < REITER_BAND; own++) {
             /* A flow of nothing has no bit set. */
-            flowing |= tolerates ? is_beyond(band.flow[own], with.tolerance) : (lanes)band.flow[own];
-            store_aligned(next + (size_t)own * segment->stride + i, band.here[own] + band.flow[own]);
+            flowing |= tolerates ? is_beyond(at.flow[own], with->tolerance) : (lanes)at.flow[own];
+            store_aligned(band->next + own * band->stride + i, at.here[own] + at.flow[own]);
         }
     }
     return any(flowing);
+}
+
+static inline void look_at_full(const reiter_flow *flow, const reiter_segment *segment, uint64_t *flowing,
+                                bool tolerates)
+{
+    const band_place band = place_of(flow, segment);
+    const constants with = constants_of(flow);
+    const size_t first = segment->bit;
+    const size_t end = first + segment->chunks;
+    for (size_t bit = first; bit < end; bit++) {
+        bool flows = full_chunk(&band, (bit - first) * REITER_CHUNK, &with, tolerates);
+        flowing[bit / 64] |= (uint64_t)flows << bit % 64;
+    }
 }
 
 static void diffuse(const reiter_flow *flow, const reiter_segment *segments, size_t count)
@@ -189,29 +204,19 @@ static void diffuse(const reiter_flow *flow, const reiter_segment *segments, siz
         if (is_full(segment))
             full_segment(flow, segment);
         else
-            masked_chunk(flow, segment, 0);
-    }
-}
-
-static inline void look_at_segment(const reiter_flow *flow, const reiter_segment *segment, uint64_t *flowing,
-                                   bool tolerates)
-{
-    bool full = is_full(segment);
-    for (size_t chunk = 0; chunk < segment->chunks; chunk++) {
-        size_t bit = segment->bit + chunk;
-        size_t shift = chunk * REITER_CHUNK;
-        if (full ? full_chunk(flow, segment, shift, tolerates) : masked_chunk(flow, segment, shift))
-            flowing[bit / 64] |= UINT64_C(1) << bit % 64;
+            masked_chunk(flow, segment);
     }
 }
 
 static void diffuse_and_look(const reiter_flow *flow, const reiter_segment *segments, size_t count, uint64_t *flowing)
 {
     for (const reiter_segment *segment = segments; segment < segments + count; segment++) {
-        if (flow->tolerance > 0)
-            look_at_segment(flow, segment, flowing, true);
+        if (!is_full(segment))
+            flowing[segment->bit / 64] |= (uint64_t)masked_chunk(flow, segment) << segment->bit % 64;
+        else if (flow->tolerance > 0)
+            look_at_full(flow, segment, flowing, true);
         else
-            look_at_segment(flow, segment, flowing, false);
+            look_at_full(flow, segment, flowing, false);
     }
 }
 

@@ -32,30 +32,35 @@ static inline vector spread(element x)
 typedef struct constants {
     vector weight;
     vector rounder;
-    vector minus_six;
+    vector minus_eight;
     vector tolerance;
 } constants;
 
 static inline constants constants_of(const reiter_flow *flow)
 {
-    return (constants){spread(flow->weight), spread(flow->rounder), spread(-6), spread(flow->tolerance)};
+    return (constants){spread(flow->weight), spread(flow->rounder), spread(-8), spread(flow->tolerance)};
 }
 
-/* sum − 6·here, exact: the same with and without a fused instruction. */
-static inline vector less_six(vector sum, vector here, const constants *with)
+/* sum − 8·here, exact: the same with and without a fused instruction. */
+static inline vector less_eight(vector sum, vector here, const constants *with)
 {
 #if defined(__AVX512F__)
-    return _mm512_fmadd_pd(here, with->minus_six, sum);
+    return _mm512_fmadd_pd(here, with->minus_eight, sum);
 #elif defined(__AVX2__) && defined(__FMA__)
-    return _mm256_fmadd_pd(here, with->minus_six, sum);
+    return _mm256_fmadd_pd(here, with->minus_eight, sum);
 #else
-    return here * with->minus_six + sum;
+    return here * with->minus_eight + sum;
 #endif
 }
 
 static inline vector flow_of(vector sum, const constants *with)
 {
     return (with->weight * sum + with->rounder) - with->rounder;
+}
+
+static inline lanes is_beyond(vector value, vector limit)
+{
+    return ~((value <= limit) & (value >= -limit));
 }
 
 #endif

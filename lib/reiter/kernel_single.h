@@ -1,5 +1,7 @@
 /* Vapour in 32-bit multiples of the quantum: what kernel.c needs to know of its
-   numbers. Only a flow, the product of a sum and α/12, is a float for a moment. */
+   numbers. Only a flow, the product of a sum and α/12, is a float for a moment.
+   Sums of eight cells may wrap round, what is left when eight times a cell is
+   taken away does not; so vectors are unsigned, and signed where that matters. */
 #ifndef SNOW_REITER_KERNEL_SINGLE_H
 #define SNOW_REITER_KERNEL_SINGLE_H
 
@@ -11,12 +13,12 @@
 
 typedef int32_t element;
 typedef int32_t lane;
-typedef int32_t vector __attribute__((vector_size(VECTOR_BYTES)));
-typedef vector lanes;
+typedef uint32_t vector __attribute__((vector_size(VECTOR_BYTES)));
+typedef int32_t lanes __attribute__((vector_size(VECTOR_BYTES)));
 typedef float float_vector __attribute__((vector_size(VECTOR_BYTES)));
-typedef int32_t loose_vector __attribute__((vector_size(VECTOR_BYTES), aligned(4), may_alias));
-typedef int32_t tight_vector __attribute__((vector_size(VECTOR_BYTES), may_alias));
-typedef tight_vector tight_lanes;
+typedef uint32_t loose_vector __attribute__((vector_size(VECTOR_BYTES), aligned(4), may_alias));
+typedef uint32_t tight_vector __attribute__((vector_size(VECTOR_BYTES), may_alias));
+typedef int32_t tight_lanes __attribute__((vector_size(VECTOR_BYTES), may_alias));
 
 /* The greatest number of quanta that is not above a value >= 0. */
 static inline element element_of(double value)
@@ -26,7 +28,16 @@ static inline element element_of(double value)
 
 static inline vector spread(element x)
 {
-    return x - (vector){0};
+    return (uint32_t)x - (vector){0};
+}
+
+/* Lane by lane: where floats are computed as doubles (FLT_EVAL_METHOD 1, s390x) a float less a vector is none. */
+static inline float_vector spread_float(float x)
+{
+    float_vector all;
+    for (size_t i = 0; i < sizeof all / sizeof x; i++)
+        all[i] = x;
+    return all;
 }
 
 /* What stays the same for all cells of a step. */
@@ -37,14 +48,13 @@ typedef struct constants {
 
 static inline constants constants_of(const reiter_flow *flow)
 {
-    return (constants){(float)flow->weight - (float_vector){0}, spread(element_of(flow->tolerance))};
+    return (constants){spread_float((float)flow->weight), spread(element_of(flow->tolerance))};
 }
 
-static inline vector less_six(vector sum, vector here, const constants *with)
+static inline vector less_eight(vector sum, vector here, const constants *with)
 {
     (void)with;
-    vector twice = here + here;
-    return sum - (twice + twice + twice);
+    return sum - (here << 3);
 }
 
 /* To the nearest whole number, ties to even. */
@@ -58,13 +68,18 @@ static inline vector round_all(float_vector x)
     typedef double wide_vector __attribute__((vector_size(2 * VECTOR_BYTES)));
     const wide_vector rounder = 0x1.8p52 - (wide_vector){0};
     wide_vector rounded = (__builtin_convertvector(x, wide_vector) + rounder) - rounder;
-    return __builtin_convertvector(rounded, vector);
+    return (vector)__builtin_convertvector(rounded, lanes);
 #endif
 }
 
 static inline vector flow_of(vector sum, const constants *with)
 {
-    return round_all(with->weight * __builtin_convertvector(sum, float_vector));
+    return round_all(with->weight * __builtin_convertvector((lanes)sum, float_vector));
+}
+
+static inline lanes is_beyond(vector value, vector limit)
+{
+    return ~(((lanes)value <= (lanes)limit) & ((lanes)value >= -(lanes)limit));
 }
 
 #endif

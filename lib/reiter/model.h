@@ -29,10 +29,10 @@ typedef struct reiter_engine {
     /* One step of the cells; tells newly frozen cells to snow_reiter_freeze().
        On failure nothing has changed. */
     snow_status (*step)(snow_grid *grid);
-    /* How many steps the engine would rather take together from here, 0: none;
-       and takes them. NULL: it never does. */
-    int64_t (*pass_steps)(const snow_grid *grid);
-    void (*pass)(snow_grid *grid);
+    /* How many steps, up to `most`, the engine would rather take together from
+       here, 0: none; and takes them. NULL: it never does. */
+    int64_t (*pass_steps)(const snow_grid *grid, int64_t most);
+    void (*pass)(snow_grid *grid, int64_t steps);
     /* The interior cells that it keeps. */
     const snow_domain *(*part)(const snow_grid *grid);
     /* How the engine numbers its cells, for arrays beside it: 0 to numbers − 1.
@@ -211,7 +211,7 @@ void snow_reiter_recount(snow_grid *grid);
 void snow_reiter_choose_bound(snow_grid *grid);
 /* Whether every cell that is called receptive is, and no other; before settle. */
 bool snow_reiter_receptive_are_sound(const snow_grid *grid);
-/* Merges the additions of receptive cells into their values, exact to one rounding. */
+/* Merges the additions of receptive cells into their values, exact to one rounding; before settle. */
 void snow_reiter_merge_additions(snow_grid *grid);
 
 /* fields.c, snapshot.c */

@@ -98,6 +98,7 @@ typedef struct rows {
     uint64_t *active;  /* may change before the next look */
     uint64_t *flowing; /* changed in the step of the last look */
     uint64_t *visited; /* in a pass: holds cells that are receptive */
+    int32_t reaches;   /* for so many times ROWS_LOOK_STEPS holds what is active: 1, in a long pass more */
     reiter_segment *segment;
     size_t segment_room;
     size_t listed_chunks; /* in the segments, when they were last listed */
@@ -120,7 +121,8 @@ static inline size_t rows_number(const rows *cells, int32_t q, int32_t r)
     return (size_t)(cells->offset[r - cells->part.top + REITER_BAND] + q);
 }
 
-/* Steps between two looks at which chunks change; not more than a chunk has columns. */
+/* Steps between two looks at which chunks change, but for long passes; not more
+   than a chunk has columns. */
 enum { ROWS_LOOK_STEPS = 8 };
 
 /* Steps between two looks at everything, where there is a tolerance. */
@@ -186,16 +188,18 @@ void snow_rows_wake_all(rows *cells);
 void snow_rows_wake(const snow_grid *grid, int32_t q, int32_t r, bool looking);
 /* After a step that looked: what can change until the next. */
 void snow_rows_choose_active(const snow_grid *grid);
+/* What can change in ROWS_LOOK_STEPS more. */
+void snow_rows_widen_active(const snow_grid *grid);
 /* Lists the segments of what is active, block by block, band by band. */
 void snow_rows_list_segments(rows *cells);
 /* Lists those of a band anew, where there is one block. */
 void snow_rows_list_band(rows *cells, int32_t band);
 
 /* rows_pass.c */
-/* How many steps a pass over the cells takes from here; 0: single steps are as good. */
-int64_t snow_rows_pass_steps(const snow_grid *grid);
+/* How many steps, up to `most`, a pass over the cells takes from here; 0: single steps are as good. */
+int64_t snow_rows_pass_steps(const snow_grid *grid, int64_t most);
 /* Takes them. */
-void snow_rows_pass(snow_grid *grid);
+void snow_rows_pass(snow_grid *grid, int64_t steps);
 
 /* rows.c */
 /* One step from the vapour in array `now` into the other. */

@@ -27,12 +27,13 @@ static bool has_bit(map_band band, int32_t chunk)
 
 static void wake_around(rows *cells, int32_t band, int32_t chunk)
 {
-    for (int32_t near = band - ROWS_REACH; near <= band + ROWS_REACH; near++) {
+    int32_t reach = ROWS_REACH * cells->reaches;
+    for (int32_t near = band - reach; near <= band + reach; near++) {
         if (near < 0 || near >= cells->bands)
             continue;
         map_band active = rows_map(cells, cells->active, near);
         map_band valid = rows_map(cells, cells->valid, near);
-        for (int32_t at = chunk - 1; at <= chunk + 1; at++) {
+        for (int32_t at = chunk - cells->reaches; at <= chunk + cells->reaches; at++) {
             if (!has_bit(valid, at) || has_bit(active, at))
                 continue;
             rows_set_bit(active, at);
@@ -104,18 +105,36 @@ static void gather_bands(rows *cells, int32_t band, bool tolerant)
     }
 }
 
-void snow_rows_choose_active(const snow_grid *grid)
+/* What is within reach of what flows. */
+static void spread(rows *cells, bool tolerant)
 {
-    rows *cells = rows_of(grid);
-    /* Where the part is cut off without a mirror, what leaves on one side comes
-       in on the other: then all is computed, always. */
-    snow_group group = reiter_of(grid)->group;
-    if (group != SNOW_GROUP_TRIVIAL && !snow_group_reflects(group))
-        return;
     for (int32_t band = 0; band < cells->bands; band++)
         spread_sideways(rows_map(cells, cells->flowing, band));
     for (int32_t band = 0; band < cells->bands; band++)
-        gather_bands(cells, band, reiter_of(grid)->params.tolerance > 0);
+        gather_bands(cells, band, tolerant);
+}
+
+/* Where the part is cut off without a mirror, what leaves on one side comes in on
+   the other: then all is computed, always. */
+static bool skips(const snow_grid *grid)
+{
+    snow_group group = reiter_of(grid)->group;
+    return group == SNOW_GROUP_TRIVIAL || snow_group_reflects(group);
+}
+
+void snow_rows_choose_active(const snow_grid *grid)
+{
+    if (skips(grid))
+        spread(rows_of(grid), reiter_of(grid)->params.tolerance > 0);
+}
+
+void snow_rows_widen_active(const snow_grid *grid)
+{
+    rows *cells = rows_of(grid);
+    if (!skips(grid))
+        return;
+    memcpy(cells->flowing, cells->active, cells->map_words * sizeof *cells->flowing);
+    spread(cells, false);
 }
 
 /* The cells of a row that lie in the chunk from column q on. */

@@ -316,6 +316,7 @@ snow_status snow_rows_create(snow_grid *grid)
         return heap->refusal;
     rows *cells = model->cells;
     cells->single = reiter_is_single(model);
+    cells->reaches = 1;
     snow_status status = place_part(grid);
     if (status == SNOW_OK)
         status = place_cells(cells, heap);

@@ -18,8 +18,8 @@
 #include <string.h>
 
 enum {
-    PASS_STEPS = ROWS_LOOK_STEPS, /* the last one looks */
-    PASS_LAST = PASS_STEPS - 1,
+    PASS_MOST = 2 * ROWS_LOOK_STEPS, /* steps */
+    PASS_LEAST = 4,
     PASS_LAG = 2,
     PASS_SKEW = 2,
     PASS_STRIP_BYTES = 1 << 20, /* of vapour, that a strip keeps in use */
@@ -30,9 +30,11 @@ typedef struct pass {
     snow_grid *grid;
     rows *cells;
     int64_t start; /* step count */
+    int32_t last;  /* step of the pass, counted from 0 */
+    bool looks;    /* in the last step */
     int32_t strip; /* its chunks in the first step */
     int32_t width;
-    reiter_flow flow[PASS_STEPS];
+    reiter_flow flow[PASS_MOST];
     double threshold;
     bool collected; /* in the last step */
     bool froze;
@@ -43,6 +45,11 @@ typedef struct chunk_range {
     int32_t first;
     int32_t end;
 } chunk_range;
+
+static bool looks_in(const pass *all, int32_t step)
+{
+    return all->looks && step == all->last;
+}
 
 static chunk_range range_in(const pass *all, int32_t step)
 {
@@ -56,25 +63,42 @@ static size_t chunk_bytes(const rows *cells)
 }
 
 /* Bands in use at once: those between the first step and the last, and one beside each. */
-static int32_t strip_width(const rows *cells)
+static int32_t strip_width(const rows *cells, int32_t steps)
 {
-    enum { BANDS_IN_USE = PASS_LAG * PASS_LAST + 3 };
-    return (int32_t)(PASS_STRIP_BYTES / (BANDS_IN_USE * chunk_bytes(cells)));
+    size_t bands_in_use = PASS_LAG * ((size_t)steps - 1) + 3;
+    return (int32_t)(PASS_STRIP_BYTES / (bands_in_use * chunk_bytes(cells)));
 }
 
-int64_t snow_rows_pass_steps(const snow_grid *grid)
+static size_t active_bytes(const rows *cells)
 {
-    const rows *cells = rows_of(grid);
-    int64_t steps = grid->census.steps;
-    bool whole = cells->blocks == 1 && cells->ghosts_are_near && !reiter_overshoots(reiter_of(grid));
-    bool looks_at_all = reiter_of(grid)->params.tolerance > 0 && (steps + PASS_STEPS) % ROWS_FULL_LOOK_STEPS == 0;
-    bool looks_for_stillness = steps == 0; /* in the first step */
-    if (!whole || looks_at_all || looks_for_stillness || steps % PASS_STEPS != 0)
-        return 0;
     size_t active = 0;
     for (size_t i = 0; i < cells->map_words; i++)
         active += (size_t)__builtin_popcountll(cells->active[i]);
-    return active * chunk_bytes(cells) > PASS_LEAST_BYTES ? PASS_STEPS : 0;
+    return active * chunk_bytes(cells);
+}
+
+/* The step count at which a pass from here may end. Looks that others rely on
+   come at an end: those for stillness, in step 1 and each 64th, and those at
+   everything, which only single steps take. With a tolerance the bits depend on
+   when it is looked, so that no look is left out. */
+static int64_t farthest_end(const snow_grid *grid)
+{
+    int64_t start = grid->census.steps;
+    bool tolerates = reiter_of(grid)->params.tolerance > 0;
+    int64_t span = tolerates ? ROWS_LOOK_STEPS : PASS_MOST;
+    int64_t end = start - start % span + span;
+    if (start == 0)
+        return 1;
+    return tolerates && end % ROWS_FULL_LOOK_STEPS == 0 ? end - 1 : end;
+}
+
+int64_t snow_rows_pass_steps(const snow_grid *grid, int64_t most)
+{
+    const rows *cells = rows_of(grid);
+    int64_t steps = farthest_end(grid) - grid->census.steps;
+    steps = steps < most ? steps : most;
+    bool whole = cells->blocks == 1 && cells->ghosts_are_near && !reiter_overshoots(reiter_of(grid));
+    return whole && steps >= PASS_LEAST && active_bytes(cells) > PASS_LEAST_BYTES ? steps : 0;
 }
 
 /* What is left of a segment within so many bits of the map. */
@@ -108,7 +132,7 @@ static void diffuse(const pass *all, int32_t step, int32_t band)
         reiter_segment clipped;
         if (!clip(&segments[i], origin + range.first, origin + range.end, &clipped))
             continue;
-        if (step == PASS_LAST)
+        if (looks_in(all, step))
             cells->kernel->diffuse_and_look(&all->flow[step], &clipped, 1, cells->flowing);
         else
             cells->kernel->diffuse(&all->flow[step], &clipped, 1);
@@ -141,7 +165,7 @@ static void reach(const pass *all, int32_t step, int32_t band, int32_t q, int32_
         return;
     note_visit(cells, at);
     if (is_computed(all, step, band, at))
-        snow_rows_join(all->grid, all->flow[step].next, at, step == PASS_LAST);
+        snow_rows_join(all->grid, all->flow[step].next, at, looks_in(all, step));
     else
         cells->state[i] = CELL_JOINING;
 }
@@ -149,7 +173,7 @@ static void reach(const pass *all, int32_t step, int32_t band, int32_t q, int32_
 static void freeze(pass *all, int32_t step, int32_t band, uint32_t number, snow_cell at)
 {
     snow_rows_freeze_cell(all->grid, number, at);
-    all->froze = all->froze || step == PASS_LAST;
+    all->froze = all->froze || step == all->last;
     reach(all, step, band, at.q - 1, at.r);
     reach(all, step, band, at.q + 1, at.r);
     reach(all, step, band, at.q, at.r - 1);
@@ -164,7 +188,7 @@ static void visit_cell(pass *all, int32_t step, int32_t band, uint32_t number, s
     const rows *cells = all->cells;
     void *next = all->flow[step].next;
     if (cells->state[number] == CELL_JOINING) {
-        snow_rows_join(all->grid, next, at, step == PASS_LAST);
+        snow_rows_join(all->grid, next, at, looks_in(all, step));
         return;
     }
     bool collected = false;
@@ -174,7 +198,7 @@ static void visit_cell(pass *all, int32_t step, int32_t band, uint32_t number, s
                             all->threshold, &collected) &&
         cells->state[number] != CELL_FED)
         freeze(all, step, band, number, at);
-    all->collected = all->collected || (collected && step == PASS_LAST);
+    all->collected = all->collected || (collected && step == all->last);
 }
 
 /* A bit for each of eight states, set where the state is odd. */
@@ -235,8 +259,8 @@ static void copy_ghosts(const pass *all, int32_t step, int32_t band)
 static void sweep_strip(pass *all)
 {
     int32_t bands = all->cells->bands;
-    for (int32_t wave = 0; wave <= bands + PASS_LAG * PASS_LAST; wave++) {
-        for (int32_t step = 0; step < PASS_STEPS; step++) {
+    for (int32_t wave = 0; wave <= bands + PASS_LAG * all->last; wave++) {
+        for (int32_t step = 0; step <= all->last; step++) {
             int32_t band = wave - PASS_LAG * step;
             if (band >= 0 && band < bands) {
                 diffuse(all, step, band);
@@ -270,27 +294,48 @@ static chunk_range widest_range(const rows *cells)
     return widest;
 }
 
-void snow_rows_pass(snow_grid *grid)
+static void sweep(pass *all)
 {
-    rows *cells = rows_of(grid);
-    pass all = {.grid = grid, .cells = cells, .start = grid->census.steps, .width = strip_width(cells),
-                .threshold = reiter_threshold(reiter_of(grid))};
-    for (int step = 0; step < PASS_STEPS; step++)
-        all.flow[step] = snow_rows_flow(grid, (cells->now + step) % 2);
+    chunk_range widest = widest_range(all->cells);
+    /* One chunk more, for the ghosts. */
+    for (all->strip = widest.first; range_in(all, all->last).first <= widest.end; all->strip += all->width)
+        sweep_strip(all);
+}
+
+/* What is active holds until the next look; a pass that leaves looks out needs more. */
+static void prepare_active(pass *all)
+{
+    rows *cells = all->cells;
+    int64_t ahead = all->start % ROWS_LOOK_STEPS + all->last;
+    while (cells->reaches <= ahead / ROWS_LOOK_STEPS) {
+        snow_rows_widen_active(all->grid);
+        cells->reaches++;
+    }
     if (cells->stale)
         snow_rows_list_segments(cells);
+    if (all->looks)
+        memset(cells->flowing, 0, cells->map_words * sizeof *cells->flowing);
+}
+
+void snow_rows_pass(snow_grid *grid, int64_t steps)
+{
+    rows *cells = rows_of(grid);
+    int64_t start = grid->census.steps;
+    pass all = {.grid = grid, .cells = cells, .start = start, .last = (int32_t)steps - 1,
+                .looks = (start + steps) % ROWS_LOOK_STEPS == 0, .width = strip_width(cells, (int32_t)steps),
+                .threshold = reiter_threshold(reiter_of(grid))};
+    for (int32_t step = 0; step <= all.last; step++)
+        all.flow[step] = snow_rows_flow(grid, (cells->now + step) % 2);
+    prepare_active(&all);
     note_front(cells);
-    memset(cells->flowing, 0, cells->map_words * sizeof *cells->flowing);
-    chunk_range widest = widest_range(cells);
-    /* One chunk more, for the ghosts. */
-    for (all.strip = widest.first; range_in(&all, PASS_LAST).first <= widest.end; all.strip += all.width)
-        sweep_strip(&all);
-    /* Chosen as in the last step, before the arrays took turns. */
-    cells->now = 1 - cells->now;
-    snow_rows_choose_active(grid);
+    sweep(&all);
+    cells->now = (cells->now + all.last) % 2;
+    cells->reaches = 1;
+    if (all.looks)
+        snow_rows_choose_active(grid);
     cells->now = 1 - cells->now;
     cells->block[0].collected = all.collected;
-    grid->census.steps = all.start + PASS_STEPS;
+    grid->census.steps = start + steps;
     if (snow_census_looks(grid->census.steps))
         grid->census.still = snow_rows_is_still(grid, all.froze);
 }

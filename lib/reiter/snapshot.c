@@ -231,10 +231,5 @@ snow_status snow_reiter_load(snow_source *source, const snow_options *options, s
         status = snow_reiter_build(&scene.params, options, &grid);
     if (status == SNOW_OK)
         status = load_cells(grid, source, &scene);
-    if (status != SNOW_OK) {
-        snow_destroy(grid);
-        return status;
-    }
-    *result = grid;
-    return SNOW_OK;
+    return snow_grid_hand_over(grid, status, result);
 }

@@ -45,13 +45,8 @@ snow_status snow_view_check_lattice(const snow_grid *grid)
 
 static snow_status copy_in(const snow_view *caller, snow_view *view)
 {
-    snow_status status = snow_struct_check(caller, sizeof(snow_view), sizeof(snow_view));
-
-    if (status != SNOW_OK)
-        return status;
     *view = default_view;
-    snow_struct_read(view, sizeof *view, caller);
-    return SNOW_OK;
+    return snow_struct_take(view, sizeof *view, caller);
 }
 
 static int within(int32_t number, int32_t least, int32_t greatest)

@@ -12,6 +12,56 @@ snow_aggregate_params aggregate_scene(snow_aggregate_scene scene)
     return params;
 }
 
+static const struct {
+    snow_aggregate_scene scene;
+    snow_aggregate_lattice lattice;
+    snow_aggregate_contact contact;
+    snow_aggregate_engine engine;
+    double sticking;
+    int32_t hits;
+} kinds[] = {
+    {SNOW_AGGREGATE_WITTEN_SANDER, SNOW_AGGREGATE_SQUARE, SNOW_AGGREGATE_ARRIVAL, 0, 1, 1},
+    {SNOW_AGGREGATE_WITTEN_SANDER, SNOW_AGGREGATE_SQUARE, SNOW_AGGREGATE_ENTRY, 0, 1, 1},
+    {SNOW_AGGREGATE_WITTEN_SANDER, SNOW_AGGREGATE_SQUARE, SNOW_AGGREGATE_ARRIVAL, 0, 0.3, 1},
+    {SNOW_AGGREGATE_WITTEN_SANDER, SNOW_AGGREGATE_SQUARE, SNOW_AGGREGATE_ARRIVAL, 0, 1, 3},
+    {SNOW_AGGREGATE_WITTEN_SANDER, SNOW_AGGREGATE_HEXAGONAL, SNOW_AGGREGATE_ARRIVAL, 0, 1, 1},
+    {SNOW_AGGREGATE_WITTEN_SANDER, SNOW_AGGREGATE_CUBIC, SNOW_AGGREGATE_ENTRY, 0, 1, 1},
+    {SNOW_AGGREGATE_WITTEN_SANDER, SNOW_AGGREGATE_SQUARE, SNOW_AGGREGATE_ARRIVAL,
+     SNOW_AGGREGATE_ENGINE_STEPS, 1, 1},
+    {SNOW_AGGREGATE_LABORATORY, SNOW_AGGREGATE_SQUARE, SNOW_AGGREGATE_ARRIVAL, 0, 1, 1},
+    {SNOW_AGGREGATE_LINE, SNOW_AGGREGATE_SQUARE, SNOW_AGGREGATE_ARRIVAL, 0, 1, 1},
+    {SNOW_AGGREGATE_LINE, SNOW_AGGREGATE_HEXAGONAL, SNOW_AGGREGATE_ENTRY, 0, 1, 1},
+    {SNOW_AGGREGATE_LINE, SNOW_AGGREGATE_CUBIC, SNOW_AGGREGATE_ARRIVAL, 0, 1, 1},
+    {SNOW_AGGREGATE_ELECTROLYSIS, SNOW_AGGREGATE_SQUARE, SNOW_AGGREGATE_ARRIVAL, 0, 0.5, 1},
+    {SNOW_AGGREGATE_SHORE, SNOW_AGGREGATE_SQUARE, SNOW_AGGREGATE_ARRIVAL, 0, 1, 1},
+    {SNOW_AGGREGATE_CHIMNEY, SNOW_AGGREGATE_SQUARE, SNOW_AGGREGATE_ARRIVAL, 0, 1, 1},
+    {SNOW_AGGREGATE_SNOWFLAKE, SNOW_AGGREGATE_SQUARE, SNOW_AGGREGATE_ARRIVAL, 0, 1, 1},
+    {SNOW_AGGREGATE_CLUSTER_CLUSTER, SNOW_AGGREGATE_SQUARE, SNOW_AGGREGATE_ARRIVAL, 0, 1, 1},
+    {SNOW_AGGREGATE_OFF_LATTICE, SNOW_AGGREGATE_SQUARE, SNOW_AGGREGATE_ARRIVAL, 0, 1, 1},
+};
+
+const size_t aggregate_kind_count = COUNT_OF(kinds);
+
+snow_aggregate_params aggregate_kind(size_t number)
+{
+    snow_aggregate_params params = aggregate_scene(kinds[number].scene);
+    params.lattice = kinds[number].lattice;
+    params.contact = kinds[number].contact;
+    params.engine = kinds[number].engine;
+    params.sticking = kinds[number].sticking;
+    params.hits = kinds[number].hits;
+    params.random_seed = 5;
+    params.launch_radius = 40;
+    params.end_radius = 30;
+    params.width = 64;
+    params.height = 64;
+    params.depth = 16;
+    params.wall_right = params.wall_right_top = 63;
+    params.interaction = 3;
+    params.particles = 400;
+    return params;
+}
+
 snow_grid *make_aggregate(const snow_aggregate_params *params, const snow_options *options)
 {
     snow_grid *grid = NULL;

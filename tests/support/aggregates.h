@@ -10,6 +10,10 @@
 
 snow_aggregate_params aggregate_scene(snow_aggregate_scene scene);
 
+/* Scenes of every kind, small. */
+extern const size_t aggregate_kind_count;
+snow_aggregate_params aggregate_kind(size_t number);
+
 snow_grid *make_aggregate(const snow_aggregate_params *params, const snow_options *options);
 
 /* All particles; free() them. */

@@ -163,7 +163,7 @@ void set_cell(snow_grid *grid, snow_field field, int32_t q, int32_t r, double va
     assert_ok(snow_field_set(grid, field, &(snow_rect){q, r, 1, 1}, &value, 1));
 }
 
-static void assert_same_field(const snow_grid *expected, const snow_grid *got, snow_field field)
+void assert_same_field(const snow_grid *expected, const snow_grid *got, snow_field field)
 {
     snow_rect rect = widened(bounds_of(expected));
     size_t count;

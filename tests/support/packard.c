@@ -1,6 +1,5 @@
 #include "packard.h"
 
-#include <stdlib.h>
 #include <string.h>
 
 snow_packard_params packard_scene(const char *rule)
@@ -90,24 +89,6 @@ snow_packard_engine engine_of(const snow_grid *grid)
     snow_packard_engine engine = SNOW_PACKARD_ENGINE_AUTO;
     assert_ok(snow_packard_engine_of(grid, &engine));
     return engine;
-}
-
-static void assert_same_field(const snow_grid *expected, const snow_grid *got, snow_field field)
-{
-    snow_rect rect = widened(bounds_of(expected));
-    size_t count;
-    double *left = copy_field(expected, field, &rect, &count);
-    double *right = copy_field(got, field, &rect, NULL);
-    for (size_t i = 0; i < count; i++) {
-        if (left[i] != right[i]) {
-            print_error("field %d of cell (%d, %d) after step %lld is %g, not %g\n", (int)field,
-                        rect.q + (int32_t)(i % (size_t)rect.width), rect.r + (int32_t)(i / (size_t)rect.width),
-                        (long long)steps_of(expected), right[i], left[i]);
-            fail();
-        }
-    }
-    free(left);
-    free(right);
 }
 
 void assert_same_crystals(const snow_grid *expected, const snow_grid *got)
