@@ -1,4 +1,5 @@
 /* One growth by aggregation, from a command line to a picture. */
+#include "common/kept.h"
 #include "common/message.h"
 #include "common/options.h"
 #include "common/output.h"
@@ -107,41 +108,12 @@ static void set_end(job *self)
         self->stop.frozen = (uint64_t)self->particles;
 }
 
-static int read_bytes(void *file, void *bytes, size_t size, size_t *got)
-{
-    *got = fread(bytes, 1, size, file);
-    return ferror((FILE *)file);
-}
-
-static int write_bytes(void *file, const void *bytes, size_t size)
-{
-    return fwrite(bytes, 1, size, file) != size;
-}
-
-static int load(const char *name, const snow_options *options, snow_grid **grid)
-{
-    FILE *file = fopen(name, "rb");
-    if (file == NULL) {
-        complain("--load: %s: %s", name, strerror(errno));
-        return EXIT_WRONG;
-    }
-    snow_status status = snow_load_from(read_bytes, file, options, grid);
-    fclose(file);
-    return status == SNOW_OK ? EXIT_DONE : complain_status(name, status);
-}
-
 static bool save(const snow_grid *grid, const char *name)
 {
     output file;
-    if (name == NULL)
-        return true;
     if (!output_open(&file, name))
         return false;
-    errno = 0;
-    bool saved = snow_save_to(grid, write_bytes, file.file) == SNOW_OK;
-    if (!saved)
-        output_complain(&file);
-    saved = saved && output_commit(&file);
+    bool saved = kept_save(grid, &file);
     output_discard(&file);
     return saved;
 }
@@ -345,7 +317,7 @@ int main(int argc, char **argv)
     set_end(&self);
     progress_start();
     if (self.names.load)
-        exit_code = load(self.names.load, &self.options, &grid);
+        exit_code = kept_load(self.names.load, &self.options, &grid);
     else {
         snow_status status = snow_aggregate_create(&self.params, &self.options, &grid);
         exit_code = status == SNOW_OK ? EXIT_DONE : complain_status(NULL, status);

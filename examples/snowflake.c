@@ -1,10 +1,10 @@
 /* One crystal, from a command line to a picture. */
 #include "common/crystal.h"
+#include "common/kept.h"
 #include "common/message.h"
 #include "common/progress.h"
 #include "common/scene.h"
 
-#include <errno.h>
 #include <stdio.h>
 
 typedef struct files {
@@ -20,28 +20,6 @@ static int list_presets(void)
     return print_line("%s", "");
 }
 
-static int load(const char *name, const snow_options *options, snow_grid **grid)
-{
-    FILE *file = file_open("load", name);
-    if (file == NULL)
-        return EXIT_WRONG;
-    snow_status status = snow_load_from(file_read, file, options, grid);
-    fclose(file);
-    return status == SNOW_OK ? EXIT_DONE : complain_status(name, status);
-}
-
-static int save(const snow_grid *grid, output *file)
-{
-    if (file->name == NULL)
-        return EXIT_DONE;
-    errno = 0;
-    if (snow_save_to(grid, file_write, file->file) != SNOW_OK) {
-        output_complain(file);
-        return EXIT_FAILED;
-    }
-    return output_commit(file) ? EXIT_DONE : EXIT_FAILED;
-}
-
 /* The grid stands; grows it and keeps what was done. */
 static int grow(snow_grid *grid, const scene *it, const look *appearance, output *picture_file, output *save_file)
 {
@@ -49,7 +27,7 @@ static int grow(snow_grid *grid, const scene *it, const look *appearance, output
     int exit_code = scene_run(grid, &it->stop, &summary);
     progress_clear();
     if (exit_code == EXIT_DONE)
-        exit_code = save(grid, save_file);
+        exit_code = kept_save(grid, save_file) ? EXIT_DONE : EXIT_FAILED;
     if (exit_code == EXIT_DONE)
         exit_code = crystal_draw(grid, appearance, picture_file);
     if (exit_code == EXIT_DONE)
@@ -121,7 +99,7 @@ int main(int argc, char **argv)
         return EXIT_WRONG;
     it.params.record_freeze_steps = names.save || palette_shows_age(appearance.palette);
     progress_start();
-    exit_code = names.load ? load(names.load, &it.options, &grid) : scene_create(&it, &grid);
+    exit_code = names.load ? kept_load(names.load, &it.options, &grid) : scene_create(&it, &grid);
     if (exit_code == EXIT_DONE)
         exit_code = grow_into_files(grid, &it, &appearance, &names);
     snow_destroy(grid);

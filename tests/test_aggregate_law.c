@@ -116,15 +116,15 @@ static void sites_that_are_shut_in_have_no_chance(void **state)
 static void walks_end_on_known_clusters_as_they_should(void **state)
 {
     (void)state;
-    check_known_clusters(SNOW_AGGREGATE_ENGINE_JUMPS, 20000, 1000);
-    check_known_clusters(SNOW_AGGREGATE_ENGINE_STEPS, 1000, 200);
+    check_known_clusters(SNOW_AGGREGATE_ENGINE_JUMPS, 10000, 1000);
+    check_known_clusters(SNOW_AGGREGATE_ENGINE_STEPS, 300, 100);
 }
 
 static void walks_end_on_a_grown_cluster_as_they_should(void **state)
 {
     (void)state;
-    check_grown_cluster(SNOW_AGGREGATE_ENGINE_JUMPS, 50000, 3000);
-    check_grown_cluster(SNOW_AGGREGATE_ENGINE_STEPS, 1000, 200);
+    check_grown_cluster(SNOW_AGGREGATE_ENGINE_JUMPS, 20000, 2000);
+    check_grown_cluster(SNOW_AGGREGATE_ENGINE_STEPS, 500, 200);
 }
 
 /* With p < 1 there is no closed form: jumps against single steps. */
@@ -168,7 +168,7 @@ static void a_biased_law_is_found_out(void **state)
     snow_aggregate_chance *list = solve_chances(arrival, &count);
     double hits[6];
     assert_int_equal(6, count);
-    const double walks = 100000;
+    const double walks = 20000;
     count_hits(entry, (uint64_t)walks, 1, list, count, hits);
     double chi_square = 0;
     for (size_t i = 0; i < count; i++) {

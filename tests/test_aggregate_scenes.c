@@ -186,7 +186,7 @@ static void check_electrolysis(double interaction, bool periodic, double stickin
     fill(&self.world, heap_of_ions, COUNT_OF(heap_of_ions));
     for (int32_t x = 3; x <= cathode_last && x < 14; x++)
         *cell(&self.world, x, -1) = true;
-    compare(&params, &self.world, fall, 20000);
+    compare(&params, &self.world, fall, 10000);
 }
 
 static void ions_fall_as_the_rules_say(void **state)
@@ -216,7 +216,7 @@ static void ions_fall_far_as_the_rules_say(void **state)
     fill(&self.world, heap_of_ions, COUNT_OF(heap_of_ions));
     for (int32_t x = 0; x < 14; x++)
         *cell(&self.world, x, -1) = true;
-    compare(&params, &self.world, fall, 20000);
+    compare(&params, &self.world, fall, 4000);
 }
 
 /* The chimney. */
@@ -246,7 +246,7 @@ static void check_chimney(int32_t left, int32_t left_top, int32_t right, int32_t
             if (x <= to || x >= from)
                 *cell(&self.world, x, y) = true;
     }
-    compare(&params, &self.world, fall, 20000);
+    compare(&params, &self.world, fall, 10000);
 }
 
 static void soot_rises_as_the_rules_say(void **state)
