@@ -211,9 +211,13 @@ SNOW_API const char *snow_aggregate_preset_source(size_t index);
  *         ::SNOW_ERROR_STRUCT_TAIL; ::SNOW_ERROR_ENUM; ::SNOW_ERROR_RANGE for
  *         a flag that is neither 0 nor 1 or an option out of range;
  *         ::SNOW_ERROR_NOT_FINITE; ::SNOW_ERROR_AGGREGATE_LATTICE to
- *         ::SNOW_ERROR_AGGREGATE_ENGINE for the scene;
- *         ::SNOW_ERROR_NO_MEMORY, ::SNOW_ERROR_TOO_LARGE,
- *         ::SNOW_ERROR_MEMORY_LIMIT, ::SNOW_ERROR_THREADS, ::SNOW_ERROR_ISA.
+ *         ::SNOW_ERROR_AGGREGATE_ENGINE for the scene; ::SNOW_ERROR_TOO_LARGE
+ *         for obstacles in whose box, cluster included, there are more than 2^28
+ *         sites, or a scene that no address space holds;
+ *         ::SNOW_ERROR_NO_MEMORY, ::SNOW_ERROR_MEMORY_LIMIT,
+ *         ::SNOW_ERROR_THREADS, ::SNOW_ERROR_ISA. Cost: that of the seeds and,
+ *         with ::SNOW_AGGREGATE_ENGINE_JUMPS, some milliseconds for tables; with
+ *         obstacles, of the box round them; of all cells of a shore.
  */
 SNOW_API snow_status snow_aggregate_create(const snow_aggregate_params *params, const snow_options *options,
                                            snow_grid **grid);
