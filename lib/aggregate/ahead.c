@@ -9,7 +9,7 @@
 enum { LOOKS_BEFORE_YIELD = 200 };
 
 /* A thread has so many walkers on their way; as many again may wait for those before them. */
-enum { ABREAST = SNOW_FLIGHTS, WALKERS_A_THREAD = 2 * ABREAST };
+enum { ABREAST = 6, WALKERS_A_THREAD = 2 * ABREAST };
 
 /* Walkers with longer diaries wait for their turn to land. */
 enum { PLANE_QUESTIONS = 256, SPACE_QUESTIONS = 640 };

@@ -10,11 +10,9 @@
 #if defined(__GNUC__)
 #define COPIED static inline __attribute__((always_inline))
 #define RARE(condition) __builtin_expect(condition, 0)
-#define FETCH(address) __builtin_prefetch(address)
 #else
 #define COPIED static inline
 #define RARE(condition) (condition)
-#define FETCH(address) ((void)(address))
 #endif
 
 static const int step_x[3][6] = {{1, -1, 0, 0, 0, 0}, {1, 0, -1, -1, 0, 1}, {1, -1, 0, 0, 0, 0}};
@@ -208,33 +206,52 @@ typedef struct manner {
     bool in_vessel;
 } manner;
 
-/* One question, and what the walker does then. True: it has landed. */
-COPIED bool advance(const snow_ground *ground, manner how, snow_site *at, snow_draws *draws, uint32_t seen)
+/* From the middle of the region of a class to where the walker leaves it. */
+COPIED snow_site leave(const snow_ground *ground, manner how, snow_site site, uint32_t class, snow_draws *draws)
 {
-    const snow_source_of_walkers *source = &ground->source;
-    snow_site site = *at;
-    if (RARE(seen == SNOW_MAP_BEYOND)) {
-        int64_t clear = clear_of(source, how.lattice, site);
-        if (RARE(clear > source->safe) && snow_source_is_beyond(source, site)) {
-            *at = snow_source_return(source, site, draws);
-            return false;
-        }
-        seen = (uint32_t)snow_exits_class(&ground->exits, clear);
-    }
-    if (!how.careful && RARE(seen == 0))
-        return true;
-    if (how.careful && seen >= 256)
-        return trial(ground, how.lattice, at, seen >> 9, draws);
-    const snow_exit_table *table = &ground->exits.table[seen];
-    if (how.lattice == SNOW_AGGREGATE_HEXAGONAL && RARE(seen >= (uint32_t)ground->exits.circles)) {
+    const snow_exit_table *table = &ground->exits.table[class];
+    if (how.lattice == SNOW_AGGREGATE_HEXAGONAL && RARE(class >= (uint32_t)ground->exits.circles)) {
         site = snow_source_circle(site, table->radius, draws);
     } else {
         uint64_t bits = snow_draws_next(draws);
         site = jump(column_of(table, bits), table->radius, how.lattice, site, bits);
     }
-    if (how.in_vessel)
-        site = fold(source, how.lattice, site);
-    *at = site;
+    return how.in_vessel ? fold(&ground->source, how.lattice, site) : site;
+}
+
+static bool is_outside(const snow_ground *ground, manner how, snow_site site)
+{
+    if (how.lattice == SNOW_AGGREGATE_CUBIC)
+        return snow_space_map_find(&ground->space, site.x, site.y, site.z) == &ground->space.outside;
+    return snow_plane_map_find(&ground->plane, site.x, site.y) == &ground->plane.outside;
+}
+
+/* From outside the map until it is inside again. No cluster can change that. */
+COPIED snow_site come_in(const snow_ground *ground, manner how, snow_site site, snow_draws *draws)
+{
+    const snow_source_of_walkers *source = &ground->source;
+    do {
+        int64_t clear = clear_of(source, how.lattice, site);
+        if (RARE(clear > source->safe) && snow_source_is_beyond(source, site))
+            site = snow_source_return(source, site, draws);
+        else
+            site = leave(ground, how, site, (uint32_t)snow_exits_class(&ground->exits, clear), draws);
+    } while (is_outside(ground, how, site));
+    return site;
+}
+
+/* What the walker does when it has seen this. True: it has landed. */
+COPIED bool advance(const snow_ground *ground, manner how, snow_site *site, snow_draws *draws, uint32_t seen)
+{
+    if (RARE(seen == SNOW_MAP_BEYOND)) {
+        *site = come_in(ground, how, *site, draws);
+        return false;
+    }
+    if (!how.careful && RARE(seen == 0))
+        return true;
+    if (how.careful && seen >= 256)
+        return trial(ground, how.lattice, site, seen >> 9, draws);
+    *site = leave(ground, how, *site, seen, draws);
     return false;
 }
 
@@ -256,55 +273,27 @@ COPIED void note(snow_flight *flight, snow_site site, snow_map_answer answer)
     flight->diary[flight->asked++] = (snow_question){answer.changed, site, answer.seen, flight->draws.used};
 }
 
-/* Which one has landed, or has filled its diary; -1: none. */
-static int whose_end(snow_flight *const *flights, int count)
+/* A turn. False: it cannot go on by itself, since it has landed or its diary is full. */
+COPIED bool go_on(const snow_ground *ground, manner how, snow_flight *flight)
 {
-    for (int i = 0; i < count; i++)
-        if (flights[i]->landed || flights[i]->asked == flights[i]->room)
-            return i;
-    return -1;
+    if (RARE(flight->asked == flight->room))
+        return false;
+    snow_site site = site_of(flight, how);
+    snow_map_answer answer = see(ground, how.lattice, how.careful, site);
+    note(flight, site, answer);
+    bool lands = advance(ground, how, &site, &flight->draws, answer.seen);
+    put_at(flight, how, site);
+    if (RARE(lands))
+        flight->landed = true;
+    return !lands;
 }
 
-/* A turn of each, in three passes: in each pass all wait for memory at the same time. */
-COPIED void take_turns(const snow_ground *ground, manner how, snow_flight *const *flights, int count)
+COPIED int share(const snow_ground *ground, manner how, snow_flight *const *flights, int count)
 {
-    const void *page[SNOW_FLIGHTS];
-    const snow_exit *column[SNOW_FLIGHTS];
-    uint32_t seen[SNOW_FLIGHTS];
-    for (int i = 0; i < count; i++)
-        page[i] = find(ground, how.lattice, site_of(flights[i], how));
-    for (int i = 0; i < count; i++) {
-        snow_site site = site_of(flights[i], how);
-        snow_map_answer answer = look(page[i], how.lattice, site);
-        note(flights[i], site, answer);
-        seen[i] = answer.seen;
-        column[i] = column_of(&ground->exits.table[answer.seen], snow_draws_peek(&flights[i]->draws));
-        FETCH(column[i]);
-    }
-    const uint32_t common = (uint32_t)ground->exits.circles - 1;
-    for (int i = 0; i < count; i++) {
-        snow_flight *flight = flights[i];
-        snow_site site = site_of(flight, how);
-        if (RARE(seen[i] - 1 >= common))
-            flight->landed = advance(ground, how, &site, &flight->draws, seen[i]);
-        else
-            site = jump(column[i], ground->exits.table[seen[i]].radius, how.lattice, site,
-                        snow_draws_next(&flight->draws));
-        put_at(flight, how, site);
-    }
-}
-
-/* Where more than a class has to be known. */
-static void take_careful_turns(const snow_ground *ground, manner how, snow_flight *const *flights, int count)
-{
-    for (int i = 0; i < count; i++) {
-        snow_flight *flight = flights[i];
-        snow_site site = site_of(flight, how);
-        snow_map_answer answer = see(ground, how.lattice, how.careful, site);
-        note(flight, site, answer);
-        flight->landed = advance(ground, how, &site, &flight->draws, answer.seen);
-        put_at(flight, how, site);
-    }
+    for (;;)
+        for (int i = 0; i < count; i++)
+            if (RARE(!go_on(ground, how, flights[i])))
+                return i;
 }
 
 static manner manner_of(const snow_ground *ground)
@@ -312,21 +301,20 @@ static manner manner_of(const snow_ground *ground)
     return (manner){ground->exits.lattice, ground->careful, ground->source.width > 0};
 }
 
+/* The plain scenes have copies of their own. */
 int snow_flight_share(const snow_ground *ground, snow_flight *const *flights, int count)
 {
     manner how = manner_of(ground);
-    int end = whose_end(flights, count);
-    for (; end < 0; end = whose_end(flights, count)) {
-        if (how.careful || how.in_vessel)
-            take_careful_turns(ground, how, flights, count);
-        else if (how.lattice == SNOW_AGGREGATE_SQUARE)
-            take_turns(ground, (manner){SNOW_AGGREGATE_SQUARE, false, false}, flights, count);
-        else if (how.lattice == SNOW_AGGREGATE_HEXAGONAL)
-            take_turns(ground, (manner){SNOW_AGGREGATE_HEXAGONAL, false, false}, flights, count);
-        else
-            take_turns(ground, (manner){SNOW_AGGREGATE_CUBIC, false, false}, flights, count);
+    if (how.careful || how.in_vessel)
+        return share(ground, how, flights, count);
+    switch (how.lattice) {
+    case SNOW_AGGREGATE_HEXAGONAL:
+        return share(ground, (manner){SNOW_AGGREGATE_HEXAGONAL, false, false}, flights, count);
+    case SNOW_AGGREGATE_CUBIC:
+        return share(ground, (manner){SNOW_AGGREGATE_CUBIC, false, false}, flights, count);
+    default:
+        return share(ground, (manner){SNOW_AGGREGATE_SQUARE, false, false}, flights, count);
     }
-    return end;
 }
 
 void snow_flight_finish(const snow_ground *ground, snow_flight *flight)

@@ -44,11 +44,9 @@ typedef struct snow_flight {
 /* Launches the walker with these numbers. The diary is kept as it is. */
 void snow_flight_start(const snow_ground *ground, snow_flight *flight, uint64_t key, uint64_t walker);
 
-enum { SNOW_FLIGHTS = 8 };
-
-/* Several walkers, up to SNOW_FLIGHTS, in turn, a question each, until one has
-   landed or its diary is full: which one. They do not know of each other; in turn,
-   what one waits for does not hold up the others. */
+/* Several walkers in turn, a question each, until one has landed or its diary is
+   full: which one. They do not know of each other; in turn, what one waits for
+   does not hold up the others. */
 int snow_flight_share(const snow_ground *ground, snow_flight *const *flights, int count);
 
 /* One alone, until it has landed; nothing more is written into its diary. */

@@ -119,14 +119,15 @@ static inline snow_map_answer snow_space_page_look(const snow_space_page *page, 
     uint32_t v = (uint32_t)y;
     uint32_t w = (uint32_t)z;
     uint32_t near = SNOW_MAP_GET(page->near[snow_space_place(u / 4, v / 4, w / 4)]);
+    if (near >= 2)
+        return (snow_map_answer){near, &page->changed};
     const snow_space_line *line = SNOW_MAP_GET_ADDRESS(page->line[snow_space_octant(u / 8, v / 8, w / 8)]);
     const snow_space_shared_word *word = &line->word[snow_space_octant(u / 4, v / 4, w / 4)];
     uint32_t half = w / 2 % 2;
     uint32_t bit = snow_space_place(u, v, w) % 32;
     uint32_t upper = SNOW_MAP_GET(word->upper[half]) >> bit & 1;
     uint32_t lower = SNOW_MAP_GET(word->lower[half]) >> bit & 1;
-    uint32_t exact = 3 - 2 * upper - lower;
-    return (snow_map_answer){near > exact ? near : exact, &page->changed}; /* neither is more than what is free */
+    return (snow_map_answer){3 - 2 * upper - lower, &page->changed};
 }
 
 /* What is on a site; only where matter is kept. */
