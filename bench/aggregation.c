@@ -25,6 +25,7 @@ static const char csv_columns[] = "part,way,lattice,particles,walks,seconds,micr
 typedef struct plan {
     bool law;
     bool growth;
+    bool scenes;
     int64_t cluster; /* particles of the fixed cluster */
     double seconds;  /* for each way of walking */
     int64_t most;    /* particles of the largest growth */
@@ -266,12 +267,85 @@ static void grow(const plan *work, snow_aggregate_lattice lattice, const char *n
     snow_destroy(grid);
 }
 
+/* The other scenes. */
+
+typedef struct scene_run {
+    const char *name;
+    snow_aggregate_scene scene;
+    snow_aggregate_lattice lattice;
+    int64_t particles; /* 0: to the end */
+    double interaction;
+} scene_run;
+
+static const scene_run scene_runs[] = {
+    {"electrolysis, 4096 columns, radius 0", SNOW_AGGREGATE_ELECTROLYSIS, SNOW_AGGREGATE_SQUARE, 1000000, 0},
+    {"electrolysis, 4096 columns, radius 3", SNOW_AGGREGATE_ELECTROLYSIS, SNOW_AGGREGATE_SQUARE, 1000000, 3},
+    {"electrolysis, 4096 columns, radius 10", SNOW_AGGREGATE_ELECTROLYSIS, SNOW_AGGREGATE_SQUARE, 1000000, 10},
+    {"electrolysis, 4096 columns, radius 30", SNOW_AGGREGATE_ELECTROLYSIS, SNOW_AGGREGATE_SQUARE, 1000000, 30},
+    {"cluster-cluster, density 0.05", SNOW_AGGREGATE_CLUSTER_CLUSTER, SNOW_AGGREGATE_SQUARE, 10000, 0},
+    {"cluster-cluster, density 0.05", SNOW_AGGREGATE_CLUSTER_CLUSTER, SNOW_AGGREGATE_SQUARE, 100000, 0},
+    {"cluster-cluster, density 0.05", SNOW_AGGREGATE_CLUSTER_CLUSTER, SNOW_AGGREGATE_CUBIC, 100000, 0},
+    {"off the lattice", SNOW_AGGREGATE_OFF_LATTICE, SNOW_AGGREGATE_SQUARE, 10000, 0},
+    {"off the lattice", SNOW_AGGREGATE_OFF_LATTICE, SNOW_AGGREGATE_SQUARE, 100000, 0},
+    {"laboratory, R0 = 120, R = 100", SNOW_AGGREGATE_LABORATORY, SNOW_AGGREGATE_SQUARE, 0, 0},
+    {"laboratory, R0 = 1200, R = 1000", SNOW_AGGREGATE_LABORATORY, SNOW_AGGREGATE_SQUARE, 0, 0},
+};
+
+static snow_aggregate_params params_of(const scene_run *run)
+{
+    snow_aggregate_params params;
+    snow_aggregate_params_init(&params, sizeof params);
+    params.scene = run->scene;
+    params.lattice = run->lattice;
+    params.interaction = run->interaction;
+    if (run->scene == SNOW_AGGREGATE_CLUSTER_CLUSTER)
+        params.particles = (uint64_t)run->particles;
+    if (run->scene == SNOW_AGGREGATE_ELECTROLYSIS) {
+        params.width = 4096;
+        params.height = 20000;
+    }
+    if (run->scene == SNOW_AGGREGATE_LABORATORY) {
+        params.launch_radius = strstr(run->name, "1200") != NULL ? 1200 : 120;
+        params.end_radius = params.launch_radius / 12 * 10;
+    }
+    return params;
+}
+
+static void run_scene(const plan *work, const scene_run *run)
+{
+    snow_aggregate_params params = params_of(run);
+    snow_grid *grid = NULL;
+    double start = processor_seconds();
+    require(snow_aggregate_create(&params, NULL, &grid), run->name);
+    snow_stop stop;
+    snow_stop_init(&stop, sizeof stop);
+    stop.max_steps = -1; /* the particles or the rim end it */
+    if (run->scene != SNOW_AGGREGATE_CLUSTER_CLUSTER && run->particles > 0)
+        stop.frozen = (uint64_t)run->particles;
+    require(snow_run(grid, &stop, NULL), run->name);
+    double seconds = processor_seconds() - start;
+    uint64_t particles = 0;
+    uint64_t bytes = 0;
+    require(snow_aggregate_particles(grid, &particles), run->name);
+    require(snow_memory(grid, &bytes), run->name);
+    const char *lattice = run->lattice == SNOW_AGGREGATE_CUBIC ? "cubic" : "square";
+    double each = 1e6 * seconds / (double)particles;
+    printf("%-38s %-6s %8" PRIu64 " particles %8.2f s %8.2f us each %8.1f bytes each\n", run->name, lattice, particles,
+           seconds, each, (double)bytes / (double)particles);
+    fflush(stdout);
+    if (work->csv != NULL)
+        fprintf(work->csv, "scenes,\"%s\",%s,%" PRIu64 ",,%.3f,%.4f,,,%.2f,,1\n", run->name, lattice, particles, seconds,
+                each, (double)bytes / (double)particles);
+    snow_destroy(grid);
+}
+
 static void print_help(void)
 {
     printf("usage: %s [options]\n"
            "Walks against a fixed cluster in several ways, and reports time a walk and error of the hit\n"
-           "probabilities; then grows clusters, and reports time, memory and jumps a particle.\n\n"
-           "  --part law|growth  only this\n"
+           "probabilities; then grows clusters, and reports time, memory and jumps a particle; then the\n"
+           "other scenes.\n\n"
+           "  --part law|growth|scenes  only this\n"
            "  --cluster N        particles of the fixed cluster, 2 to 1000 (default: 200)\n"
            "  --seconds S        processor time for each way of walking (default: 20)\n"
            "  --most N           grow to 10^4, 10^5, ... at most N particles (default: 1000000)\n"
@@ -286,8 +360,9 @@ static void read_part(plan *work, const char *name)
 {
     work->law = strcmp(name, "law") == 0;
     work->growth = strcmp(name, "growth") == 0;
-    if (!work->law && !work->growth)
-        arguments_fail("'%s' is no part: law, growth", name);
+    work->scenes = strcmp(name, "scenes") == 0;
+    if (!work->law && !work->growth && !work->scenes)
+        arguments_fail("'%s' is no part: law, growth, scenes", name);
 }
 
 static void read_arguments(plan *work, int count, char **arguments, const char **csv_path, const char **date)
@@ -319,7 +394,7 @@ static void read_arguments(plan *work, int count, char **arguments, const char *
 
 int main(int count, char **arguments)
 {
-    plan work = {true, true, 200, 20, 1000000, 1, NULL};
+    plan work = {true, true, true, 200, 20, 1000000, 1, NULL};
     const char *csv_path = NULL;
     const char *date = NULL;
     read_arguments(&work, count, arguments, &csv_path, &date);
@@ -335,6 +410,8 @@ int main(int count, char **arguments)
         grow(&work, SNOW_AGGREGATE_HEXAGONAL, "hexagonal");
         grow(&work, SNOW_AGGREGATE_CUBIC, "cubic");
     }
+    for (size_t i = 0; work.scenes && i < sizeof scene_runs / sizeof scene_runs[0]; i++)
+        run_scene(&work, &scene_runs[i]);
     if (work.csv != NULL && !csv_close(work.csv)) {
         fprintf(stderr, "%s: %s: the figures were not written\n", program_name, csv_path);
         return 1;

@@ -394,6 +394,25 @@ test_interrupt() {
 same_population() {
     succeeded && [ "$(cut -d ' ' -f 1,2 "$1")" = "$(cut -d ' ' -f 1,2 "$2")" ]
 }
+# Killed while it writes the crystal: what stands under the name is the old crystal or the new one, and whole.
+test_checkpoint() {
+    run snowflake --radius 250 --max-steps 50 --out none.png --save point.snow
+    "$programs/snowflake" --load point.snow --max-steps 60 --out none.png --save point.snow >stdout 2>stderr &
+    job=$!
+    part=
+    while [ -z "$part" ] && kill -0 $job 2>/dev/null; do
+        part=$(find . -name 'point.snow.*.part' -size +0)
+    done
+    kill -KILL $job 2>/dev/null
+    wait $job 2>/dev/null
+    run snowflake --load point.snow --max-steps 0
+    if [ -n "$part" ]; then
+        check 'kill -9 while a crystal is saved: the old one or the new one is there' grep -Eq '^steps=(50|60) ' stdout
+    else
+        skip 'kill -9 while a crystal is saved' 'it was saved too soon'
+    fi
+    rm -f point.snow.*.part none.png.*.part
+}
 partly_done() {
     [ "$code" -eq 0 ] && grep -q '^panels=4 done=[1-3] ' stdout && is_png part.png && grep -q '^table: stopped' stderr
 }
@@ -510,6 +529,7 @@ if built snowflake; then
     test_wrong
     test_disk
     test_interrupt
+    test_checkpoint
     test_sheets
     test_animation
     test_aggregate

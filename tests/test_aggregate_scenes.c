@@ -338,6 +338,46 @@ static void the_sheets_walkers_wander_as_the_rules_say(void **state)
         world self = {.low_x = -12, .low_y = -12, .high_x = 12, .high_y = 12};
         fill(&self, cluster, COUNT_OF(cluster));
         compare(&params, &self, wander, 10000);
+        params.engine = SNOW_AGGREGATE_ENGINE_STEPS;
+        compare(&params, &self, wander, 10000);
+    }
+}
+
+/* Leaps and single steps, on each lattice and by both rules of contact, near the ring and off the middle. */
+static void both_engines_agree_in_the_ring(void **state)
+{
+    (void)state;
+    enum { MOST = 4096, REACH = 7 };
+    static const snow_site cluster[] = {{3, 0, 0}, {4, 0, 0}, {4, 1, 0}, {4, -1, 0}, {2, 0, 0}, {0, -3, 0}};
+    static const snow_site obstacles[] = {{0, 2, 0}, {1, 2, 0}, {-1, 2, 0}};
+    static const snow_aggregate_lattice lattices[] = {SNOW_AGGREGATE_SQUARE, SNOW_AGGREGATE_HEXAGONAL,
+                                                      SNOW_AGGREGATE_CUBIC};
+    for (int variant = 0; variant < 6; variant++) {
+        snow_aggregate_params params = aggregate_scene(SNOW_AGGREGATE_LABORATORY);
+        params.lattice = lattices[variant / 2];
+        params.contact = variant & 1 ? SNOW_AGGREGATE_ENTRY : SNOW_AGGREGATE_ARRIVAL;
+        params.sticking = variant & 1 ? 0.5 : 1;
+        params.launch_radius = 9;
+        params.end_radius = 8;
+        params.seeds = cluster;
+        params.seed_count = COUNT_OF(cluster);
+        params.obstacles = obstacles;
+        params.obstacle_count = COUNT_OF(obstacles);
+        static snow_aggregate_chance list[MOST];
+        static double hits[2][MOST];
+        size_t count = 0;
+        int32_t deep = params.lattice == SNOW_AGGREGATE_CUBIC ? REACH : 0;
+        for (int32_t z = -deep; z <= deep; z++)
+            for (int32_t y = -REACH; y <= REACH; y++)
+                for (int32_t x = -REACH; x <= REACH; x++)
+                    list[count++].site = (snow_site){x, y, z};
+        for (int steps = 0; steps < 2; steps++) {
+            params.engine = steps ? SNOW_AGGREGATE_ENGINE_STEPS : SNOW_AGGREGATE_ENGINE_JUMPS;
+            snow_grid *grid = make_aggregate(&params, NULL);
+            count_hits(grid, 10000, 31 + (uint64_t)steps, list, count, hits[steps]);
+            snow_destroy(grid);
+        }
+        assert_alike(hits[0], hits[1], count);
     }
 }
 
@@ -743,6 +783,7 @@ int main(void)
         cmocka_unit_test(soot_rises_as_the_rules_say),
         cmocka_unit_test(flakes_drift_as_the_rules_say),
         cmocka_unit_test(the_sheets_walkers_wander_as_the_rules_say),
+        cmocka_unit_test(both_engines_agree_in_the_ring),
         cmocka_unit_test(walkers_sink_in_the_vessel_as_the_rules_say),
         cmocka_unit_test(both_engines_agree_in_every_vessel),
         cmocka_unit_test(waves_wear_the_shore_as_the_rules_say),

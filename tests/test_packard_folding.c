@@ -105,6 +105,31 @@ static void one_seed_grows_the_same_far_away(void **state)
     }
 }
 
+/* A ring so wide that nobody can look at all cells between: seven crystals that never meet. */
+static void far_seeds_grow_side_by_side(void **state)
+{
+    (void)state;
+    enum { FAR = 1000000000 };
+    static const snow_cell ring[RING] = {{0, 0},    {FAR, 0},  {0, FAR},    {-FAR, FAR},
+                                         {-FAR, 0}, {0, -FAR}, {FAR, -FAR}};
+    for (int engine = SNOW_PACKARD_ENGINE_AUTO; engine <= SNOW_PACKARD_ENGINE_QUADTREE; engine++) {
+        if (engine == SNOW_PACKARD_ENGINE_REFERENCE)
+            continue;
+        snow_packard_params params = packard_scene("0101010");
+        params.seeds = ring;
+        params.seed_count = RING;
+        params.engine = (snow_packard_engine)engine;
+        snow_grid *grid = make_packard(&params, NULL);
+        assert_ok(snow_step(grid, 1000));
+        assert_int_equal(RING * 2355193, frozen_of(grid));
+        snow_packard_zone zone = packard_zone_of(SNOW_PACKARD_RESTRICTION, SNOW_PACKARD_SIDES, 1001, 1010);
+        assert_ok(snow_packard_add_zone(grid, &zone));
+        if (engine != SNOW_PACKARD_ENGINE_QUADTREE) /* it would have to become tiles */
+            assert_ok(snow_step(grid, 20));
+        snow_destroy(grid);
+    }
+}
+
 static void symmetric_seeds_are_folded(void **state)
 {
     (void)state;
@@ -252,6 +277,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(one_seed_grows_the_same_anywhere),
         cmocka_unit_test(one_seed_grows_the_same_far_away),
+        cmocka_unit_test(far_seeds_grow_side_by_side),
         cmocka_unit_test(symmetric_seeds_are_folded),
         cmocka_unit_test(a_zone_about_the_same_centre_keeps_the_fold),
         cmocka_unit_test(a_seed_that_breaks_the_symmetry_unfolds),

@@ -77,7 +77,7 @@ typedef enum snow_aggregate_contact {
 /** @brief What moves the walkers. */
 typedef enum snow_aggregate_engine {
     SNOW_AGGREGATE_ENGINE_AUTO = 0,  /**< The fastest that the scene has. */
-    SNOW_AGGREGATE_ENGINE_JUMPS = 1, /**< Jumps over empty regions with the exact exit laws of the lattice: Witten–Sander and line. */
+    SNOW_AGGREGATE_ENGINE_JUMPS = 1, /**< Jumps over empty regions with the exact exit laws of the lattice: Witten–Sander, laboratory and line. */
     SNOW_AGGREGATE_ENGINE_STEPS = 2  /**< Plain single steps: the reference. Another engine, other random numbers: the same law, not the same cluster. */
 } snow_aggregate_engine;
 

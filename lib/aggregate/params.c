@@ -88,7 +88,7 @@ static bool has_lattice(const snow_aggregate_params *params)
 
 static bool has_engine(const snow_aggregate_params *params)
 {
-    bool can_jump = params->scene == SNOW_AGGREGATE_WITTEN_SANDER ||
+    bool can_jump = params->scene == SNOW_AGGREGATE_WITTEN_SANDER || params->scene == SNOW_AGGREGATE_LABORATORY ||
                     (params->scene == SNOW_AGGREGATE_LINE && !params->periodic);
     switch (params->engine) {
     case SNOW_AGGREGATE_ENGINE_AUTO: return true;

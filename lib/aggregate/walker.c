@@ -1,15 +1,18 @@
 /* Walkers that take one step at a time: the reference for Witten–Sander and
    line, and the laboratory sheet's own rules. Nothing here is shared with the
-   engine that jumps. */
+   engine that jumps, but for the laboratory's leaps (ring.h). */
 #include "aggregate/cells.h"
 #include "aggregate/circle.h"
 #include "aggregate/model.h"
+#include "aggregate/ring.h"
 #include "aggregate/vessel.h"
 
 typedef struct walker {
     snow_cells cells;
     const aggregate_neighbours *steps;
     bool vessel; /* floor, walls and lid */
+    bool leaps;  /* over what is empty in the laboratory's ring */
+    snow_ring ring;
 } walker;
 
 static walker *walker_of(const snow_grid *grid)
@@ -132,7 +135,10 @@ static bool walk(const snow_grid *grid, snow_stream *stream, snow_site *end)
     double radius = 0;
     snow_site at = launched(grid, stream, &radius);
     uint8_t here = snow_cells_get(&self->cells, at);
+    int level = 0; /* of the latest leap */
     for (;;) {
+        while (self->leaps && snow_ring_leap(&self->ring, stream, &at, &level))
+            here = snow_cells_get(&self->cells, at);
         if (arrival && (here & SNOW_CELL_NEAR) && snow_stream_chance(stream, model->params.sticking))
             break;
         snow_site next =
@@ -171,6 +177,15 @@ static void mark_floor(snow_grid *grid)
     }
 }
 
+static snow_status cover(snow_grid *grid, snow_site low, snow_site high)
+{
+    walker *self = walker_of(grid);
+    snow_status status = snow_cells_cover(&self->cells, &grid->heap, low, high);
+    if (status == SNOW_OK && self->leaps)
+        status = snow_ring_cover(&self->ring, &grid->heap, low, high);
+    return status;
+}
+
 /* Particles can join within one site of those that are there, and touch one farther. */
 static snow_status prepare(snow_grid *grid)
 {
@@ -187,7 +202,7 @@ static snow_status prepare(snow_grid *grid)
         low = (snow_site){-1 - (hexagonal ? params->height / 2 : 0), -1, space ? -1 : 0};
         high = (snow_site){params->width, space ? params->depth : top, space ? top : 0};
     }
-    return snow_cells_cover(&self->cells, &grid->heap, low, high);
+    return cover(grid, low, high);
 }
 
 static snow_status create(snow_grid *grid)
@@ -199,12 +214,18 @@ static snow_status create(snow_grid *grid)
     model->state = self;
     self->steps = snow_aggregate_steps(model->params.lattice);
     self->vessel = model->params.scene == SNOW_AGGREGATE_LINE;
+    self->leaps = model->params.scene == SNOW_AGGREGATE_LABORATORY && model->params.engine != SNOW_AGGREGATE_ENGINE_STEPS;
     snow_status status = self->vessel ? prepare(grid) : SNOW_OK;
+    if (self->leaps)
+        status = snow_ring_start(&self->ring, &grid->heap, model->params.lattice, 3.0 * model->params.launch_radius);
     for (uint64_t i = 0; i < model->obstacles.count && status == SNOW_OK; i++) {
         snow_site obstacle = snow_sites_at(&model->obstacles, i);
-        status = snow_cells_cover(&self->cells, &grid->heap, obstacle, obstacle);
-        if (status == SNOW_OK)
-            *snow_cells_at(&self->cells, obstacle) |= SNOW_CELL_BARRED;
+        status = cover(grid, obstacle, obstacle);
+        if (status != SNOW_OK)
+            break;
+        *snow_cells_at(&self->cells, obstacle) |= SNOW_CELL_BARRED;
+        if (self->leaps)
+            snow_ring_add(&self->ring, obstacle);
     }
     if (status == SNOW_OK && self->vessel)
         mark_floor(grid);
@@ -218,10 +239,12 @@ static snow_status place(snow_grid *grid, snow_site site)
     bool space = params->lattice == SNOW_AGGREGATE_CUBIC;
     snow_site low = {site.x - 1, site.y - 1, space ? site.z - 1 : 0};
     snow_site high = {site.x + 1, site.y + 1, space ? site.z + 1 : 0};
-    snow_status status = snow_cells_cover(&self->cells, &grid->heap, low, high);
+    snow_status status = cover(grid, low, high);
     if (status != SNOW_OK)
         return status;
     *snow_cells_at(&self->cells, site) |= SNOW_CELL_FILLED;
+    if (self->leaps)
+        snow_ring_add(&self->ring, site);
     for (int i = 0; i < self->steps->count; i++) {
         snow_site next = aggregate_moved(site, self->steps->step[i]);
         snow_cells_mark(&self->cells, self->vessel ? snow_vessel_keep(params, next) : next, SNOW_CELL_NEAR);
@@ -238,6 +261,7 @@ static void destroy(snow_grid *grid)
 {
     walker *self = walker_of(grid);
     snow_cells_end(&self->cells, &grid->heap);
+    snow_ring_end(&self->ring, &grid->heap);
     snow_heap_put(&grid->heap, self);
 }
 

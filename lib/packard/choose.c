@@ -27,11 +27,17 @@ static const double start_for_area = 5;
 static const double start_share = 0.2;
 static const double trial_share = 0.08;
 
-/* Below this the tiles are through before the quadtree can show what it is good for. */
+/* Below this the tiles are through before the quadtree can show what it is good
+   for; it needs longer where the crystal's symmetries are not about the origin. */
 static const double least_work = 3e6;
+static const double longer_aside = 4;
 
 /* The trial ends early when the quadtree will need only this part of what the tiles need. */
 static const double clear_share = 0.5;
+
+/* From one doubling to the next its work is taken to grow by a factor between these. */
+static const double least_growth = 1.05;
+static const double greatest_growth = 8;
 
 /* What counts as twice the size. */
 static const double doubled = 1.9;
@@ -44,8 +50,10 @@ enum {
 /* Where it was left, it is tried again for so much larger crystals. */
 static const double second_chance = 8;
 
-/* Crystals farther out are not taken from the quadtree to the tiles. */
+/* Crystals farther out are not taken from the quadtree to the tiles. So they
+   are not taken to it either, unless they would keep the tiles busy for hours. */
 static const int64_t greatest_reach = INT64_C(1) << 22;
+static const double hopeless_work = 1e15;
 
 static bool fits_tiles(const snow_grid *grid)
 {
@@ -103,7 +111,10 @@ static bool is_worth_a_trial(const snow_grid *grid, int64_t ahead)
 {
     const packard_trial *trial = &packard_of(grid)->trial;
     double work = tile_work(grid, ahead);
-    return work >= least_work && start_share * work >= start_work(grid) &&
+    bool may_come_back = work >= hopeless_work || fits_tiles(grid);
+    const packard_fold *fold = &packard_of(grid)->fold;
+    bool aside = fold->possible && (fold->q != 0 || fold->r != 0);
+    return work >= least_work * (aside ? longer_aside : 1) && may_come_back && start_share * work >= start_work(grid) &&
            size_of(grid) + (double)ahead >= second_chance * trial->left_for;
 }
 
@@ -156,8 +167,9 @@ static double tree_work(const packard_trial *trial, int64_t ahead)
     const packard_effort *mark = trial->mark;
     double last = effort_between(&mark[1], &mark[0]);
     double before = effort_between(&mark[2], &mark[1]);
-    double growth = power(last / before, 1 / logarithm(mark[0].size / mark[1].size));
-    growth = growth > 1.05 ? growth : 1.05;
+    double ratio = last > 0 && before > 0 ? last / before : 1;
+    double growth = power(ratio, 1 / logarithm(mark[0].size / mark[1].size));
+    growth = growth < least_growth ? least_growth : growth > greatest_growth ? greatest_growth : growth;
     double doublings = logarithm((trial->now.size + (double)ahead) / mark[0].size);
     double sum = growth * (power(growth, doublings) - 1) / (growth - 1);
     return mark[0].work + last * sum - trial->now.work;

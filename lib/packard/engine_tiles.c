@@ -158,6 +158,24 @@ static void copy(const void *engine, const packard_region *region, uint64_t *wor
                        words + (size_t)y * stride);
 }
 
+typedef struct guide {
+    packard_visitor visitor;
+    void *context;
+} guide;
+
+/* A snow_tile_visitor. */
+static snow_status show(void *context, int64_t q, int64_t r, const uint64_t *rows)
+{
+    const guide *to = context;
+    return to->visitor(to->context, &(packard_region){q, r, SNOW_TILE_SIDE, SNOW_TILE_SIDE}, rows);
+}
+
+static snow_status visit(const void *engine, packard_visitor visitor, void *context)
+{
+    guide to = {visitor, context};
+    return snow_tiles_visit(((const tile_cells *)engine)->tiles, show, &to);
+}
+
 static int64_t date(const void *engine, int64_t q, int64_t r)
 {
     const tile_cells *cells = engine;
@@ -223,6 +241,7 @@ const packard_engine snow_packard_tiles = {
     .put = put,
     .put_dated = put_dated,
     .copy = copy,
+    .visit = visit,
     .date = date,
     .advance = advance,
     .change_zones = change_zones,

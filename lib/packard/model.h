@@ -51,6 +51,9 @@ typedef struct packard_fold {
     int64_t q, r; /* the cell */
 } packard_fold;
 
+/* Sees cells of a region, rows of whole words. */
+typedef snow_status (*packard_visitor)(void *context, const packard_region *region, const uint64_t *words);
+
 /* What computes the steps. The cells are the engine's own; the heap and all
    that is not cells is the grid's. */
 typedef struct packard_engine {
@@ -63,6 +66,9 @@ typedef struct packard_engine {
     /* Freezes a cell, and says when; only of grids that record it. */
     snow_status (*put_dated)(void *cells, int64_t q, int64_t r, int64_t step);
     void (*copy)(const void *cells, const packard_region *region, uint64_t *words);
+    /* Shows all frozen cells of an unfolded plane, in regions that do not overlap;
+       ends at the first failure. NULL: it cannot. */
+    snow_status (*visit)(const void *cells, packard_visitor visitor, void *context);
     /* −1: not frozen. Only of grids that record it. */
     int64_t (*date)(const void *cells, int64_t q, int64_t r);
     /* Takes so many steps, in which the same zones apply, or stops after a part of them, so that a caller with little

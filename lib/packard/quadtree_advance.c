@@ -72,7 +72,7 @@ static bool is_still(const snow_quadtree *tree, quadtree_ref ref)
 /* The pattern at (x, y) of a square of patterns, with its neighbours to the right and below. */
 static quadtree_wanted want_window(const snow_quadtree *tree, const quadtree_ref *square, int width, int x, int y)
 {
-    const quadtree_ref *above = square + y * width + x;
+    const quadtree_ref *above = square + (ptrdiff_t)y * width + x;
     const quadtree_ref *below = above + width;
     return snow_quadtree_want(tree, (quadtree_ref[4]){above[0], above[1], below[0], below[1]});
 }

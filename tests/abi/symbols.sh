@@ -38,6 +38,17 @@ if [ -n "$SNOW_STATIC" ]; then
     nm -g --defined-only "$SNOW_STATIC" | awk 'NF == 3 { print $3 }' | sort -u >"$tap_folder/archive"
     check 'the archive defines symbols' test -s "$tap_folder/archive"
     check 'all that the archive defines begins with snow_' prefixed "$tap_folder/archive"
+    # What it takes from outside: memory from one place only, and nothing that prints, ends the program or looks about.
+    nm -u -A "$SNOW_STATIC" 2>/dev/null | awk '{ print $1, $NF }' >"$tap_folder/wanted"
+    refuse 'the archive prints nothing, ends nothing, asks no environment' \
+        grep -E ' (printf|fprintf|vfprintf|puts|putchar|fputs|fwrite|perror|stdout|stderr|abort|exit|_exit|getenv|signal|raise|time|rand|srand|random|setlocale|fopen|open)$' "$tap_folder/wanted"
+    grep -E ' (malloc|calloc|realloc|free|posix_memalign|aligned_alloc|strdup|mmap)$' "$tap_folder/wanted" |
+        grep -v 'base_heap\.c\.o' >"$tap_folder/allocators" || :
+    refuse 'only base/heap.c knows malloc()' test -s "$tap_folder/allocators"
+    # Data that can change would be shared by grids. The maps' "nothing" is an address that is never written to.
+    nm -A "$SNOW_STATIC" 2>/dev/null | grep -E ' [bBC] ' | grep -v '_nothing$' >"$tap_folder/writable" || :
+    size -A "$SNOW_STATIC" | awk '$1 ~ /^\.(data|tdata|tbss)$/ && $2 > 0' >>"$tap_folder/writable"
+    refuse 'the archive has no data that change' test -s "$tap_folder/writable"
 else
     skip 'all that the archive defines begins with snow_' 'no archive was built'
 fi
