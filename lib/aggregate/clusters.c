@@ -354,6 +354,8 @@ snow_status snow_clusters_move_few(clusters *self, snow_heap *heap, uint32_t num
         return status;
     take_step(self, &self->cluster[number], direction);
     self->stale = true;
+    if (*count > 0)
+        snow_clusters_show(self);
     return SNOW_OK;
 }
 
@@ -400,37 +402,41 @@ static void widen(clusters *self, cluster *it, uint32_t more)
     self->filled += capacity;
 }
 
-/* A site of the large cluster beside a particle of the small one. */
+/* A member of the large cluster beside a particle of the small one. */
 typedef struct contact {
     snow_site position; /* of that particle */
-    snow_site site;
-    int direction; /* from it to the site */
+    uint32_t member;
+    int direction; /* from it to the member */
 } contact;
 
-static contact find_contact(const clusters *self, const cluster *small)
+/* The small cluster's own sites are in the scratch set. */
+static contact find_contact(const clusters *self, const cluster *large, const cluster *small)
 {
     for (uint32_t i = 0; i < small->mass; i++) {
         snow_site position = self->position[self->member[small->first + i]];
         snow_site site = snow_clusters_site(self, small, position);
         for (int side = 0; side < snow_box_directions(&self->box); side++) {
             snow_site next = snow_box_next(&self->box, site, side);
-            if (snow_box_has(&self->maker.own, next))
-                return (contact){position, next, side};
+            if (!snow_box_has(&self->box, next) || snow_box_has(&self->maker.own, next) ||
+                !may_hold(self, large, next))
+                continue;
+            uint32_t member = find_member(self, large, next);
+            if (member < large->mass)
+                return (contact){position, member, side};
         }
     }
-    return (contact){small->least, snow_clusters_site(self, small, small->least), 0};
+    return (contact){small->least, large->mass, 0};
 }
 
 /* What must be added to the small cluster's positions to have them in the large one's frame. */
-static snow_site find_shift(clusters *self, const cluster *large, const cluster *small)
+static snow_site find_shift(const clusters *self, const cluster *large, const cluster *small)
 {
-    snow_clusters_flip(self, large, &self->maker.own);
-    contact found = find_contact(self, small);
-    snow_clusters_flip(self, large, &self->maker.own);
-    uint32_t touched = find_member(self, large, found.site);
-    if (touched == large->mass)
+    snow_clusters_flip(self, small, &self->maker.own);
+    contact found = find_contact(self, large, small);
+    snow_clusters_flip(self, small, &self->maker.own);
+    if (found.member == large->mass)
         return (snow_site){0, 0, 0};
-    snow_site there = self->position[self->member[large->first + touched]];
+    snow_site there = self->position[self->member[large->first + found.member]];
     snow_site step = snow_box_steps[found.direction];
     return (snow_site){there.x - step.x - found.position.x, there.y - step.y - found.position.y,
                        there.z - step.z - found.position.z};

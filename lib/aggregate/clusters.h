@@ -72,7 +72,8 @@ snow_site snow_clusters_site(const clusters *self, const cluster *of, snow_site 
 snow_status snow_clusters_move(clusters *self, snow_heap *heap, uint32_t number, int direction, bool may_rest,
                                uint32_t *count);
 
-/* The same where the gaps between few clusters are known; the box's bits and owners are left behind. */
+/* The same where the gaps between few clusters are known; the box's bits and owners are left behind, the
+   bits until some touch. */
 snow_status snow_clusters_move_few(clusters *self, snow_heap *heap, uint32_t number, int direction, uint32_t *count);
 
 /* The box's bits follow the clusters again. */
