@@ -553,6 +553,34 @@ static void nothing_is_asked_of_nothing_or_of_another_model(void **state)
     snow_destroy(other);
 }
 
+/* Measures of the cells need the table of sites as the cells themselves do; on the square lattice they go by its
+   distances. */
+static void measures_of_cells_need_the_cells(void **state)
+{
+    (void)state;
+    static const snow_site seeds[2] = {{0, 0, 0}, {1, 1, 0}};
+    static const double radii[2] = {0, 1.5};
+    uint64_t masses[2] = {7, 7}, boxes = 7;
+    double dimension = 7;
+    snow_aggregate_params params = aggregate_scene(SNOW_AGGREGATE_WITTEN_SANDER);
+    params.seeds = seeds;
+    params.seed_count = COUNT_OF(seeds);
+    snow_grid *grid = make_aggregate(&params, NULL);
+    assert_status(SNOW_ERROR_NOT_RECORDED, snow_mass_radius(grid, radii, COUNT_OF(radii), masses));
+    assert_status(SNOW_ERROR_NOT_RECORDED, snow_box_count(grid, 1, &boxes));
+    assert_status(SNOW_ERROR_NOT_RECORDED, snow_dimension(grid, &dimension));
+    assert_true(masses[0] == 7 && boxes == 7 && dimension == 7);
+    snow_destroy(grid);
+    params.record_order = 1;
+    grid = make_aggregate(&params, NULL);
+    assert_ok(snow_mass_radius(grid, radii, COUNT_OF(radii), masses));
+    assert_ok(snow_box_count(grid, 1, &boxes));
+    assert_int_equal(1, masses[0]);
+    assert_int_equal(2, masses[1]);
+    assert_int_equal(2, boxes);
+    snow_destroy(grid);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -565,6 +593,7 @@ int main(void)
         cmocka_unit_test(fields_are_those_of_the_particles),
         cmocka_unit_test(fields_that_are_not_kept_are_refused),
         cmocka_unit_test(scenes_say_what_they_have_not),
+        cmocka_unit_test(measures_of_cells_need_the_cells),
         cmocka_unit_test(walkers_are_counted),
         cmocka_unit_test(clusters_hold_all_particles),
         cmocka_unit_test(sampled_chances_state_their_error),

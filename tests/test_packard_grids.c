@@ -170,6 +170,27 @@ static void bits_are_the_frozen_cells(void **state)
     }
 }
 
+static void no_bits_are_set_far_away(void **state)
+{
+    (void)state;
+    static const int64_t far[] = {0, INT64_C(1) << 37, INT64_C(1) << 38, -(INT64_C(1) << 38), (INT64_C(1) << 62) - 64,
+                                  -(INT64_C(1) << 62)};
+    snow_packard_params params = packard_scene("0100000");
+    for (size_t i = 0; i < COUNT_OF(engines); i++) {
+        for (params.cluster = 0; params.cluster <= 3; params.cluster += 3) { /* with all symmetries, and with none */
+            params.engine = engines[i];
+            snow_grid *grid = make_packard(&params, NULL);
+            assert_ok(snow_step(grid, 8));
+            for (size_t k = 1; k < COUNT_OF(far) * COUNT_OF(far); k++) {
+                uint64_t word = 1;
+                assert_ok(snow_packard_copy_bits(grid, far[k / COUNT_OF(far)], far[k % COUNT_OF(far)], 64, 1, &word, 1));
+                assert_int_equal(0, word);
+            }
+            snow_destroy(grid);
+        }
+    }
+}
+
 static void fields_are_read_as_they_should_be(void **state)
 {
     (void)state;
@@ -498,6 +519,7 @@ int main(void)
         cmocka_unit_test(what_is_too_large_is_said),
         cmocka_unit_test(steps_end_at_their_limit),
         cmocka_unit_test(bits_are_the_frozen_cells),
+        cmocka_unit_test(no_bits_are_set_far_away),
         cmocka_unit_test(fields_are_read_as_they_should_be),
         cmocka_unit_test(cells_can_be_frozen_and_melted),
         cmocka_unit_test(runs_end_at_the_right_step),

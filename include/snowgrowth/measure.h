@@ -26,8 +26,9 @@ extern "C" {
  * @param masses receives M(l) for each.
  * @return ::SNOW_OK, ::SNOW_ERROR_NULL; ::SNOW_ERROR_NOT_FINITE;
  *         ::SNOW_ERROR_RANGE for radii that are negative or do not ascend;
- *         ::SNOW_ERROR_TOO_LARGE where snow_frozen_bounds() says so. Cost: one
- *         read for each cell of snow_frozen_bounds().
+ *         ::SNOW_ERROR_TOO_LARGE where snow_frozen_bounds() says so; what
+ *         snow_cell_value() says of ::SNOW_FIELD_FROZEN. Cost: one read for each
+ *         cell of snow_frozen_bounds().
  */
 SNOW_API snow_status snow_mass_radius(const snow_grid *grid, const double *radii, size_t count, uint64_t *masses);
 
@@ -43,7 +44,8 @@ SNOW_API snow_status snow_mass_radius(const snow_grid *grid, const double *radii
  * @param dimension receives D: 2 for a plate, 1 for a needle.
  * @return ::SNOW_OK, ::SNOW_ERROR_NULL; ::SNOW_ERROR_RANGE when the tip radius
  *         is less than 32 or the origin is not frozen;
- *         ::SNOW_ERROR_TOO_LARGE where snow_frozen_bounds() says so. Cost: that
+ *         ::SNOW_ERROR_TOO_LARGE where snow_frozen_bounds() says so; what
+ *         snow_cell_value() says of ::SNOW_FIELD_FROZEN. Cost: that
  *         of snow_mass_radius().
  */
 SNOW_API snow_status snow_dimension(const snow_grid *grid, double *dimension);
@@ -59,7 +61,8 @@ SNOW_API snow_status snow_dimension(const snow_grid *grid, double *dimension);
  * @param side their sides, in cells, at least 1.
  * @param boxes receives the number.
  * @return ::SNOW_OK, ::SNOW_ERROR_NULL; ::SNOW_ERROR_RANGE for a side below 1;
- *         ::SNOW_ERROR_TOO_LARGE where snow_frozen_bounds() says so. Cost: at
+ *         ::SNOW_ERROR_TOO_LARGE where snow_frozen_bounds() says so; what
+ *         snow_cell_value() says of ::SNOW_FIELD_FROZEN. Cost: at
  *         most one read for each cell of snow_frozen_bounds().
  */
 SNOW_API snow_status snow_box_count(const snow_grid *grid, int32_t side, uint64_t *boxes);

@@ -83,7 +83,7 @@ typedef struct snow_packard_params {
     const snow_cell *seeds; /**< Cells that are frozen at the start, copied; NULL (default): the origin. */
     size_t seed_count;      /**< How many seeds; with a list of 0 cells nothing is frozen at the start. */
     int32_t cluster;        /**< q > 0: a random patch in place of seeds, q × q cells round the origin (those of a rhombus), each frozen with probability 1/2, an empty patch drawn again; at most 1024; 0 by default. */
-    int32_t scatter;        /**< n > 0: so many different cells in place of seeds, drawn from a rhombus round the origin; at most half of its cells; 0 by default. */
+    int32_t scatter;        /**< n > 0: so many different cells in place of seeds, drawn from a rhombus round the origin; at most half of its cells, rounded up; 0 by default. */
     int32_t scatter_side;   /**< Sides of that rhombus, of which only the interior counts; 1 to 2^21; 400 by default. */
     uint64_t random_seed;   /**< Chooses patch and scatter; 0 by default. */
 
@@ -146,9 +146,9 @@ SNOW_API snow_status snow_packard_rule_text(uint32_t rule, snow_packard_notation
  * A frozen cell next to one outside the interior is within reach of the rim;
  * the plane and a torus have no rim.
  *
- * On the plane 64-bit numbers of cells, bounds beyond 2^30 and fields over the
- * whole interior can be too large to be told; see grid.h. Steps, and cells
- * beyond 5·2^60 from an axis, are refused.
+ * On the plane the number of cells, bounds beyond 2^30 and fields over the
+ * whole interior can be too large to be told; see grid.h. Freeze steps later
+ * than 2^32 − 2 are told as that.
  *
  * Memory: the tiles need about 0.2 bytes for each cell of the region that the
  * crystal has reached, a twelfth of that while the scene has all symmetries of
@@ -157,6 +157,10 @@ SNOW_API snow_status snow_packard_rule_text(uint32_t rule, snow_packard_notation
  * answer ::SNOW_ERROR_NO_MEMORY, ::SNOW_ERROR_MEMORY_LIMIT or
  * ::SNOW_ERROR_TOO_LARGE; the grid then stands where snow_steps() says, between
  * two steps, and can be asked, saved and continued.
+ *
+ * A time limit (snow_stop.seconds) is looked at after each few milliseconds of
+ * work of the tiles, longer with zones and many cells; the quadtree then takes
+ * at most as many steps at once as were taken before.
  *
  * @param params the scene.
  * @param options memory, threads, instruction set; NULL: the defaults.
@@ -169,7 +173,9 @@ SNOW_API snow_status snow_packard_rule_text(uint32_t rule, snow_packard_notation
  *         freeze at once; ::SNOW_ERROR_PACKARD_RADIUS to
  *         ::SNOW_ERROR_PACKARD_ENGINE for the scene; ::SNOW_ERROR_NO_MEMORY,
  *         ::SNOW_ERROR_TOO_LARGE, ::SNOW_ERROR_MEMORY_LIMIT,
- *         ::SNOW_ERROR_THREADS, ::SNOW_ERROR_ISA.
+ *         ::SNOW_ERROR_THREADS, ::SNOW_ERROR_ISA. Cost: that of the seeds; on a
+ *         disc or rectangle also that of its rows, and where d0 = 1 that of the
+ *         whole domain.
  */
 SNOW_API snow_status snow_packard_create(const snow_packard_params *params, const snow_options *options,
                                          snow_grid **grid);
@@ -247,7 +253,8 @@ SNOW_API void snow_packard_zone_init(snow_packard_zone *zone, size_t struct_size
  *
  * Steps that were taken are not taken back: it applies from the next step on.
  * There may be any number of zones. A zone costs nothing in steps in which it
- * does not apply, and nothing where it has no cells.
+ * does not apply, and nothing where it has no cells; when one begins or ends,
+ * the tiles are looked through once.
  *
  * @param grid a grid of Packard's model.
  * @param zone the zone, copied.
@@ -315,13 +322,16 @@ SNOW_API snow_status snow_packard_copy_bits(const snow_grid *grid, int64_t q, in
  *
  * Cell (x, y) of the pattern, x to the right and y down, becomes q = x − y,
  * r = y: Golly's hexagonal neighbourhood is the cell's row and column
- * neighbours and those to its upper left and lower right. A rule in the header
- * is taken, with its bounded universe if it names one. The line CXRLE gives
- * position and step count ("Pos=", "Gen="); without a position the middle of
- * the pattern comes to lie on the origin.
+ * neighbours and those to its upper left and lower right. On a rhombus or
+ * torus it becomes q = x, r = −y, or −1 − y where the height is even: there the
+ * sides must be those of the pattern, and that makes it a mirror image. A rule
+ * in the header is taken, with its bounded universe if it names one. The line
+ * CXRLE gives position and step count ("Pos=", "Gen="); without a position the
+ * middle of the extents that the header names comes to lie on the origin.
  *
  * Nothing in the text is trusted: a few bytes of it can stand for at most 2^32
- * frozen cells, and their memory counts against the limit.
+ * frozen cells, and their memory counts against the limit. Cost: that of the
+ * text and of the frozen cells.
  *
  * @param text the pattern; need not end with a zero.
  * @param size bytes of text.
@@ -333,7 +343,9 @@ SNOW_API snow_status snow_packard_copy_bits(const snow_grid *grid, int64_t q, in
  *         ::SNOW_ERROR_PACKARD_RLE when it is no such pattern;
  *         ::SNOW_ERROR_PACKARD_RLE_STATES when it has cells of more than two
  *         states; ::SNOW_ERROR_TRUNCATED when it ends before its final "!";
- *         ::SNOW_ERROR_PACKARD_SEED for cells outside the domain.
+ *         ::SNOW_ERROR_PACKARD_SEED for frozen cells outside the domain;
+ *         ::SNOW_ERROR_TOO_LARGE for more frozen cells than that, a row or
+ *         column beyond ±2^30, or a step count beyond 2^62.
  */
 SNOW_API snow_status snow_packard_load_rle(const void *text, size_t size, const snow_packard_params *params,
                                            const snow_options *options, snow_grid **grid);
@@ -365,7 +377,8 @@ SNOW_API snow_status snow_packard_load_rle_from(snow_reader read, void *context,
  * @param size receives the size in bytes, also when the buffer is too small.
  * @return ::SNOW_OK, ::SNOW_ERROR_NULL; ::SNOW_ERROR_UNSUPPORTED for another
  *         model; ::SNOW_ERROR_BUFFER, nothing is written;
- *         ::SNOW_ERROR_TOO_LARGE where snow_frozen_bounds() says so.
+ *         ::SNOW_ERROR_TOO_LARGE where snow_frozen_bounds() says so. Cost: that
+ *         of the rectangle that snow_frozen_bounds() tells, twice with a buffer.
  */
 SNOW_API snow_status snow_packard_save_rle(const snow_grid *grid, void *buffer, size_t capacity, size_t *size);
 

@@ -4,29 +4,35 @@
 #include "base/floating.h"
 
 #include <sched.h>
-#include <string.h>
 
 /* How often a thread that has to wait looks before it yields its processor. */
-enum { WALKERS_A_THREAD = 4, LOOKS_BEFORE_YIELD = 200 };
+enum { LOOKS_BEFORE_YIELD = 200 };
 
-/* A filled site changes what is known nearby up to this far, in squares (cubes) of so many sites. */
-enum { PLANE_REACH = 44, PLANE_SHIFT = 6, SPACE_REACH = 24, SPACE_SHIFT = 5 };
+/* A thread has so many walkers on their way; as many again may wait for those before them. */
+enum { ABREAST = 6, WALKERS_A_THREAD = 2 * ABREAST };
 
-snow_status snow_ahead_start(snow_ahead *ahead, snow_heap *heap, int threads)
+/* Walkers with longer diaries wait for their turn to land. */
+enum { PLANE_QUESTIONS = 256, SPACE_QUESTIONS = 640 };
+
+snow_status snow_ahead_start(snow_ahead *ahead, snow_heap *heap, int threads, bool space)
 {
     if (ahead->window > 0)
         return SNOW_OK;
     uint64_t window = (uint64_t)threads * WALKERS_A_THREAD;
+    uint32_t room = space ? SPACE_QUESTIONS : PLANE_QUESTIONS;
     ahead->voyage = snow_heap_get(heap, window, sizeof *ahead->voyage);
-    ahead->questions = snow_heap_get_raw(heap, window, SNOW_AHEAD_QUESTIONS * sizeof *ahead->questions);
+    ahead->questions = snow_heap_get_raw(heap, window, room * sizeof *ahead->questions);
     if (ahead->voyage == NULL || ahead->questions == NULL) {
         snow_ahead_end(ahead, heap);
         return heap->refusal;
     }
-    for (uint64_t i = 0; i < window; i++)
-        ahead->voyage[i].diary.question = ahead->questions + i * SNOW_AHEAD_QUESTIONS;
+    for (uint64_t i = 0; i < window; i++) {
+        ahead->voyage[i].flight.diary = ahead->questions + i * room;
+        ahead->voyage[i].flight.room = room;
+    }
     atomic_flag_clear(&ahead->settling);
     ahead->window = window;
+    ahead->threads = threads;
     return SNOW_OK;
 }
 
@@ -63,135 +69,125 @@ void snow_ahead_resume(snow_ahead *ahead)
     atomic_store(&ahead->paused, false);
 }
 
-static void walk(const snow_ahead *ahead, snow_voyage *voyage, uint64_t walker, size_t room)
+void snow_ahead_extend(snow_ahead *ahead)
 {
-    snow_draws_start(&voyage->draws, ahead->ground->refill, ahead->key, walker);
-    voyage->diary.count = 0;
-    voyage->diary.room = room;
-    voyage->end = snow_flight(ahead->ground, &voyage->draws, &voyage->diary);
+    atomic_fetch_add(&ahead->end, 1);
 }
+
+/* Those whom one thread walks. */
+typedef struct squad {
+    snow_voyage *voyage[ABREAST];
+    snow_flight *flight[ABREAST];
+    int count;
+} squad;
 
 /* The next number, unless too many are out. */
 static bool take(snow_ahead *ahead, uint64_t *walker)
 {
     *walker = atomic_load(&ahead->next);
     do {
-        if (*walker >= atomic_load(&ahead->settled) + ahead->window)
+        if (*walker >= atomic_load(&ahead->end) || *walker >= atomic_load(&ahead->settled) + ahead->window)
             return false;
     } while (!atomic_compare_exchange_weak(&ahead->next, walker, *walker + 1));
     return true;
 }
 
-/* False: it has to wait. */
-static bool walk_next(snow_ahead *ahead)
+static void set_out(snow_ahead *ahead, snow_voyage *voyage, uint64_t walker)
+{
+    voyage->walker = walker;
+    voyage->settled = atomic_load(&ahead->settled);
+    voyage->epoch = ahead->epoch;
+    snow_flight_start(ahead->ground, &voyage->flight, ahead->key, walker);
+}
+
+static void fill_up(snow_ahead *ahead, squad *own)
 {
     uint64_t walker;
-    atomic_fetch_add(&ahead->walking, 1);
-    bool may = !atomic_load(&ahead->paused) && take(ahead, &walker);
-    if (may) {
+    while (own->count < ABREAST && take(ahead, &walker)) {
         snow_voyage *voyage = &ahead->voyage[walker % ahead->window];
-        voyage->settled = atomic_load(&ahead->settled);
-        voyage->epoch = ahead->epoch;
-        walk(ahead, voyage, walker, SNOW_AHEAD_QUESTIONS);
-        atomic_store(&voyage->done, walker + 1);
+        set_out(ahead, voyage, walker);
+        own->voyage[own->count] = voyage;
+        own->flight[own->count++] = &voyage->flight;
+    }
+}
+
+static void walk_on(const snow_ahead *ahead, squad *own)
+{
+    int i = snow_flight_share(ahead->ground, own->flight, own->count);
+    snow_voyage *voyage = own->voyage[i];
+    own->voyage[i] = own->voyage[--own->count];
+    own->flight[i] = own->flight[own->count];
+    atomic_store(&voyage->done, voyage->walker + 1);
+}
+
+/* False: it has to wait. */
+static bool walk(snow_ahead *ahead, squad *own)
+{
+    atomic_fetch_add(&ahead->walking, 1);
+    bool may = !atomic_load(&ahead->paused);
+    if (may) {
+        fill_up(ahead, own);
+        may = own->count > 0;
+        if (may)
+            walk_on(ahead, own);
     }
     atomic_fetch_sub(&ahead->walking, 1);
     return may;
 }
 
-static bool is_in_space(const snow_ahead *ahead)
+/* Undoes what the walker would not have done on the cluster as it stands. */
+static void correct(snow_ahead *ahead, snow_voyage *voyage)
 {
-    return ahead->ground->exits.lattice == SNOW_AGGREGATE_CUBIC;
-}
-
-/* Place of a square (cube) among the marks. */
-static uint32_t mark_of(int32_t x, int32_t y, int32_t z)
-{
-    return ((uint32_t)x + 32 * (uint32_t)y + 37 * (uint32_t)z) % SNOW_AHEAD_MARKS;
-}
-
-/* Arithmetic shift: squares of the plane to the left of and below the origin, too. */
-static int32_t square_of(int32_t x, int shift)
-{
-    return (int32_t)(((int64_t)x + (INT64_C(1) << 32)) >> shift) - (int32_t)(INT64_C(1) << (32 - shift));
-}
-
-static void mark_around(snow_ahead *ahead, snow_site site, uint64_t number)
-{
-    bool space = is_in_space(ahead);
-    int shift = space ? SPACE_SHIFT : PLANE_SHIFT;
-    int32_t reach = space ? SPACE_REACH : PLANE_REACH;
-    int32_t last_x = square_of(site.x + reach, shift);
-    int32_t last_y = square_of(site.y + reach, shift);
-    int32_t last_z = space ? square_of(site.z + reach, shift) : 0;
-    for (int32_t z = space ? square_of(site.z - reach, shift) : 0; z <= last_z; z++)
-        for (int32_t y = square_of(site.y - reach, shift); y <= last_y; y++)
-            for (int32_t x = square_of(site.x - reach, shift); x <= last_x; x++)
-                ahead->mark[mark_of(x, y, z)] = number;
-}
-
-/* Whether nothing has changed where the walker has asked. */
-static bool is_untouched(const snow_ahead *ahead, const snow_voyage *voyage)
-{
-    if (ahead->far_changed > voyage->settled)
-        return false;
-    int shift = is_in_space(ahead) ? SPACE_SHIFT : PLANE_SHIFT;
-    for (size_t i = 0; i < voyage->diary.count; i++) {
-        snow_site site = voyage->diary.question[i].site;
-        uint32_t place = mark_of(square_of(site.x, shift), square_of(site.y, shift), square_of(site.z, shift));
-        if (ahead->mark[place] > voyage->settled)
-            return false;
+    if (voyage->epoch != ahead->epoch) {
+        ahead->repeats++;
+        snow_flight_start(ahead->ground, &voyage->flight, ahead->key, voyage->walker);
+    } else if (voyage->settled < voyage->walker) {
+        uint32_t outdated = snow_flight_outdated(ahead->ground, &voyage->flight, voyage->settled);
+        if (outdated < voyage->flight.asked) {
+            ahead->repeats++;
+            snow_flight_rewind(&voyage->flight, outdated);
+        }
     }
-    return true;
-}
-
-static bool holds(const snow_ahead *ahead, const snow_voyage *voyage, uint64_t walker)
-{
-    if (voyage->epoch != ahead->epoch || voyage->diary.count > voyage->diary.room)
-        return voyage->epoch == ahead->epoch && voyage->settled == walker;
-    return voyage->settled == walker || is_untouched(ahead, voyage) || snow_flight_holds(ahead->ground, &voyage->diary);
-}
-
-static uint64_t far_changes(const snow_ahead *ahead)
-{
-    return is_in_space(ahead) ? ahead->ground->space.far_changes : ahead->ground->plane.far_changes;
 }
 
 static void settle_one(snow_ahead *ahead, snow_voyage *voyage, uint64_t walker)
 {
-    if (!holds(ahead, voyage, walker)) {
-        ahead->repeats++;
-        walk(ahead, voyage, walker, 0);
-    }
-    uint64_t far = far_changes(ahead);
-    bool goes_on = ahead->land(ahead->context, voyage->end);
-    mark_around(ahead, voyage->end, walker + 1);
-    if (far_changes(ahead) != far)
-        ahead->far_changed = walker + 1;
+    snow_flight *flight = &voyage->flight;
+    correct(ahead, voyage);
+    snow_flight_finish(ahead->ground, flight);
+    bool goes_on = ahead->land(ahead->context, walker, (snow_site){flight->x, flight->y, flight->z});
     atomic_store(&ahead->settled, walker + 1);
     if (!goes_on)
         atomic_store(&ahead->ended, true);
 }
 
+/* The next one to land, if it has come so far. */
+static snow_voyage *due(const snow_ahead *ahead, uint64_t walker)
+{
+    snow_voyage *voyage = &ahead->voyage[walker % ahead->window];
+    return atomic_load(&voyage->done) == walker + 1 ? voyage : NULL;
+}
+
 static void settle(snow_ahead *ahead)
 {
+    if (due(ahead, atomic_load(&ahead->settled)) == NULL || atomic_flag_test_and_set(&ahead->settling))
+        return;
     while (!atomic_load(&ahead->ended)) {
         uint64_t walker = atomic_load(&ahead->settled);
-        snow_voyage *voyage = &ahead->voyage[walker % ahead->window];
-        if (atomic_load(&voyage->done) != walker + 1)
+        snow_voyage *voyage = due(ahead, walker);
+        if (voyage == NULL)
             break;
         settle_one(ahead, voyage, walker);
     }
+    atomic_flag_clear(&ahead->settling);
 }
 
 static SNOW_APART void work(snow_ahead *ahead)
 {
+    squad own = {.count = 0};
     for (int looks = 0; !atomic_load(&ahead->ended);) {
-        if (!atomic_flag_test_and_set(&ahead->settling)) {
-            settle(ahead);
-            atomic_flag_clear(&ahead->settling);
-        }
-        if (!atomic_load(&ahead->ended) && !walk_next(ahead))
+        settle(ahead);
+        if (!atomic_load(&ahead->ended) && !walk(ahead, &own))
             wait_a_little(&looks);
     }
 }
@@ -205,15 +201,17 @@ static void task(void *argument, size_t index)
     snow_floating_leave(&state);
 }
 
-uint64_t snow_ahead_run(snow_ahead *ahead, snow_parallel_for loop, void *loop_context, int threads, uint64_t first)
+uint64_t snow_ahead_run(snow_ahead *ahead, snow_parallel_for loop, void *loop_context, uint64_t first, uint64_t count)
 {
     for (uint64_t i = 0; i < ahead->window; i++)
         atomic_store(&ahead->voyage[i].done, 0);
-    memset(ahead->mark, 0, sizeof ahead->mark);
-    ahead->far_changed = 0;
+    atomic_store(&ahead->end, first + count);
     atomic_store(&ahead->next, first);
     atomic_store(&ahead->settled, first);
     atomic_store(&ahead->ended, false);
-    loop(loop_context, (size_t)threads, task, ahead);
+    if (ahead->threads > 1)
+        loop(loop_context, (size_t)ahead->threads, task, ahead);
+    else
+        work(ahead);
     return atomic_load(&ahead->settled);
 }

@@ -1,9 +1,11 @@
-/* Walkers on several threads at once, against one cluster that grows meanwhile.
+/* Walkers on their way at the same time, against one cluster that grows meanwhile.
 
-   Each thread takes the next number, walks, and keeps a diary. Whoever finds
-   nobody at it settles: walkers land in their order, one thread at a time. A
-   walker whose diary would read otherwise by then walks again. So each has
-   walked on the cluster that those before it have left, as one by one.
+   Each thread takes the next numbers and walks some of them in turn, a question
+   at a time: the processor then works on one while another waits for memory.
+   Each walker keeps a diary. Whoever finds nobody at it settles: walkers land in
+   their order, one thread at a time. One whose diary would read otherwise by
+   then goes back to the first answer that has changed and walks on from there.
+   So each has walked on the cluster that those before it have left, as one by one.
 
    Settling changes the map while others read it. They may read a mixture of old
    and new; then the diary does not hold. Only what moves in memory, or moves
@@ -17,35 +19,32 @@
 
 #include <stdatomic.h>
 
-enum { SNOW_AHEAD_QUESTIONS = 384, SNOW_AHEAD_MARKS = 1024 };
-
 typedef struct snow_voyage {
-    _Atomic uint64_t done; /* 1 + the walker that this is, when it has ended */
-    uint64_t settled;      /* how many had landed when it set out */
+    _Atomic uint64_t done; /* 1 + the walker that this is, when it needs no more turns */
+    uint64_t walker;
+    uint64_t settled; /* how many had landed when it set out */
     uint64_t epoch;
-    snow_site end;
-    snow_diary diary;
-    snow_draws draws;
+    snow_flight flight;
 } snow_voyage;
 
 /* Lands a walker; true: it is not the last one. */
-typedef bool (*snow_landing)(void *context, snow_site site);
+typedef bool (*snow_landing)(void *context, uint64_t walker, snow_site site);
 
 typedef struct snow_ahead {
     snow_voyage *voyage; /* a ring */
     snow_question *questions;
     uint64_t window; /* so many walkers are out at a time; 0: not started */
+    int threads;
     _Atomic uint64_t next;
     _Atomic uint64_t settled;
     _Atomic int walking;
     _Atomic bool paused;
     _Atomic bool ended;
     atomic_flag settling;
+    _Atomic uint64_t end; /* no walker from this number on sets out */
     /* What follows is for who settles. */
     uint64_t epoch; /* changes when the source or the map's box does */
     uint64_t repeats;
-    uint64_t far_changed;            /* 1 + the last walker that changed what is known from afar */
-    uint64_t mark[SNOW_AHEAD_MARKS]; /* the same for a place nearby */
     snow_landing land;
     void *context;
     /* What walkers need. */
@@ -54,11 +53,15 @@ typedef struct snow_ahead {
 } snow_ahead;
 
 /* Nothing happens when it was started before. */
-snow_status snow_ahead_start(snow_ahead *ahead, snow_heap *heap, int threads);
+snow_status snow_ahead_start(snow_ahead *ahead, snow_heap *heap, int threads, bool space);
 void snow_ahead_end(snow_ahead *ahead, snow_heap *heap);
 
-/* Sends out walkers from this number on until one is the last; returns the number after it. */
-uint64_t snow_ahead_run(snow_ahead *ahead, snow_parallel_for loop, void *loop_context, int threads, uint64_t first);
+/* Sends out walkers from number `first` on, so many at first, until one is the
+   last; returns the number after it. One thread does not use the loop. */
+uint64_t snow_ahead_run(snow_ahead *ahead, snow_parallel_for loop, void *loop_context, uint64_t first, uint64_t count);
+
+/* For who lands a walker that is not the last: one more may set out. */
+void snow_ahead_extend(snow_ahead *ahead);
 
 /* For who lands a walker: from pause to resume nobody else walks. */
 void snow_ahead_pause(snow_ahead *ahead);

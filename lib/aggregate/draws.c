@@ -18,11 +18,15 @@ snow_draws_refill snow_draws_choose(snow_isa isa)
 
 void snow_draws_start(snow_draws *draws, snow_draws_refill refill, uint64_t key, uint64_t walker)
 {
-    draws->next = 0;
-    draws->block = 0;
     draws->key = key;
     draws->walker = walker;
     draws->refill = refill;
-    refill(draws, 0);
-    refill(draws, SNOW_DRAWS_HALF);
+    snow_draws_move(draws, 0);
+}
+
+void snow_draws_move(snow_draws *draws, uint32_t used)
+{
+    draws->used = used - used % SNOW_DRAWS_AT_ONCE;
+    draws->refill(draws);
+    draws->used = used;
 }

@@ -1,5 +1,5 @@
 /* The numbers of one walker of the jump engine: its own Philox stream, computed
-   four blocks at a time, in vectors, while the numbers before are used. */
+   eight blocks at a time, in vectors. */
 #ifndef SNOW_AGGREGATE_DRAWS_H
 #define SNOW_AGGREGATE_DRAWS_H
 
@@ -9,37 +9,44 @@
 
 #include <stdint.h>
 
-enum { SNOW_DRAWS_HALF = 8 };
+enum { SNOW_DRAWS_AT_ONCE = 16 };
 
 typedef struct snow_draws snow_draws;
 
-/* The next eight numbers, in place of those from `first` on. */
-typedef void (*snow_draws_refill)(snow_draws *draws, uint32_t first);
+/* The sixteen numbers from the one that comes next on. */
+typedef void (*snow_draws_refill)(snow_draws *draws);
 
 struct snow_draws {
-    uint64_t number[2 * SNOW_DRAWS_HALF];
-    uint32_t next;
-    uint32_t block; /* counter of the first block to come */
+    uint64_t number[SNOW_DRAWS_AT_ONCE];
+    uint32_t used; /* so far */
     uint64_t key;
     uint64_t walker;
     snow_draws_refill refill;
 };
 
 /* All give the same numbers. */
-void snow_draws_refill_baseline(snow_draws *draws, uint32_t first);
-void snow_draws_refill_avx2(snow_draws *draws, uint32_t first);
+void snow_draws_refill_baseline(snow_draws *draws);
+void snow_draws_refill_avx2(snow_draws *draws);
 snow_draws_refill snow_draws_choose(snow_isa isa);
 
 /* The first numbers of a stream. */
 void snow_draws_start(snow_draws *draws, snow_draws_refill refill, uint64_t key, uint64_t walker);
 
+/* Back, or on, to when so many were used. */
+void snow_draws_move(snow_draws *draws, uint32_t used);
+
+/* The number that comes next. */
+static inline uint64_t snow_draws_peek(const snow_draws *draws)
+{
+    return draws->number[draws->used % SNOW_DRAWS_AT_ONCE];
+}
+
 static inline uint64_t snow_draws_next(snow_draws *draws)
 {
-    uint32_t here = draws->next;
-    uint64_t number = draws->number[here];
-    draws->next = (here + 1) % (2 * SNOW_DRAWS_HALF);
-    if (draws->next % SNOW_DRAWS_HALF == 0)
-        draws->refill(draws, draws->next ^ SNOW_DRAWS_HALF);
+    uint64_t number = snow_draws_peek(draws);
+    draws->used++;
+    if (draws->used % SNOW_DRAWS_AT_ONCE == 0)
+        draws->refill(draws);
     return number;
 }
 

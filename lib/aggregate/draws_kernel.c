@@ -5,7 +5,7 @@
 #define NAME(a, b) PASTE(a, b)
 #define REFILL(isa) NAME(snow_draws_refill_, isa)
 
-enum { ROUNDS = 10, BLOCKS = SNOW_DRAWS_HALF / 2 };
+enum { ROUNDS = 10, BLOCKS = SNOW_DRAWS_AT_ONCE / 2 };
 
 static const uint32_t multiplier_0 = 0xD2511F53u;
 static const uint32_t multiplier_1 = 0xCD9E8D57u;
@@ -55,14 +55,14 @@ enum { VECTORS = BLOCKS / LANES };
 
 /* snow_random_draw() for a block in each lane: its first two words make one
    number, the other two one BLOCKS numbers further on. */
-void REFILL(SNOW_KERNEL)(snow_draws *draws, uint32_t first)
+void REFILL(SNOW_KERNEL)(snow_draws *draws)
 {
     lanes a[VECTORS];
     lanes b[VECTORS];
     lanes c[VECTORS];
     lanes d[VECTORS];
     for (int i = 0; i < VECTORS; i++) {
-        a[i] = FROM(draws->block + (uint32_t)i * LANES);
+        a[i] = FROM(draws->used / 2 + (uint32_t)i * LANES);
         b[i] = ALL((uint32_t)draws->walker);
         c[i] = ALL(draws->walker >> 32);
         d[i] = ALL(SNOW_RANDOM_JUMPS);
@@ -82,8 +82,7 @@ void REFILL(SNOW_KERNEL)(snow_draws *draws, uint32_t first)
         key_1 = PLUS(key_1, ALL(weyl_1));
     }
     for (int i = 0; i < VECTORS; i++) {
-        STORE(draws->number + first + i * LANES, JOIN(b[i], a[i]));
-        STORE(draws->number + first + BLOCKS + i * LANES, JOIN(d[i], c[i]));
+        STORE(draws->number + i * LANES, JOIN(b[i], a[i]));
+        STORE(draws->number + BLOCKS + i * LANES, JOIN(d[i], c[i]));
     }
-    draws->block += BLOCKS;
 }

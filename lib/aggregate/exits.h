@@ -22,31 +22,22 @@ typedef struct snow_exit {
     uint16_t outcome[2]; /* below it, and from it on: an index costs no branch */
 } snow_exit;
 
-/* A column of one for all sides, for small regions: the way to the site. */
-typedef struct snow_exit_step {
-    uint32_t threshold;
-    int8_t way[2][3];
-} snow_exit_step;
-
 typedef struct snow_exit_table {
-    const snow_exit *exit;      /* NULL: the region is left through a circle, see source.h */
-    const snow_exit_step *step; /* NULL: it is not small */
-    uint32_t exit_mask;         /* columns less one */
-    uint32_t step_mask;
+    const snow_exit *exit; /* never NULL */
+    uint32_t mask;         /* columns less one */
     int32_t radius;
 } snow_exit_table;
 
-enum { SNOW_EXIT_CLASSES = 36, SNOW_EXIT_OCTAVES = 15 };
+enum { SNOW_EXIT_CLASSES = 40, SNOW_EXIT_OCTAVES = 15, SNOW_EXIT_PARTS = 8 };
 
 /* The tables of a lattice, by ascending radius. */
 typedef struct snow_exits {
     snow_aggregate_lattice lattice;
     int classes; /* table[1] ... table[classes - 1]; 0 is no region */
-    int small;   /* so many classes are small: those up to this one */
-    snow_exit_table table[SNOW_EXIT_CLASSES];
+    int circles; /* those from this class on are left through circles, see source.h */
+    snow_exit_table table[SNOW_EXIT_CLASSES + 1];
     snow_exit *exit;
-    snow_exit_step *step;
-    uint8_t class_of_octave[SNOW_EXIT_OCTAVES]; /* the class for radius 2^n */
+    uint8_t class_from[SNOW_EXIT_OCTAVES][SNOW_EXIT_PARTS]; /* for radius 2^n (1 + part/8), rounded up */
 } snow_exits;
 
 snow_status snow_exits_start(snow_exits *exits, snow_heap *heap, snow_aggregate_lattice lattice);

@@ -1,5 +1,10 @@
 #include "aggregate/flight.h"
 
+/* Pairs of coordinates are not worth the way through vector registers. */
+#if defined(__GNUC__) && !defined(__clang__)
+#pragma GCC optimize("no-tree-slp-vectorize")
+#endif
+
 /* One body for all lattices and ways of walking: what is constant in a call
    is constant in the copy that the compiler makes for it. */
 #if defined(__GNUC__)
@@ -21,16 +26,27 @@ static const int corner_r[6] = {0, 1, 1, 0, -1, -1};
 static const int side_q[6] = {-1, -1, 0, 1, 1, 0};
 static const int side_r[6] = {1, 0, -1, -1, 0, 1};
 
+/* The eight symmetries of a square. */
+static const int32_t image_of_square[8][4] = {{1, 0, 0, 1},  {-1, 0, 0, 1},  {1, 0, 0, -1},  {-1, 0, 0, -1},
+                                              {0, 1, 1, 0},  {0, 1, -1, 0},  {0, -1, 1, 0},  {0, -1, -1, 0}};
+
 COPIED int ways(snow_aggregate_lattice lattice)
 {
     return lattice == SNOW_AGGREGATE_SQUARE ? 4 : 6;
 }
 
-COPIED int look(const snow_ground *ground, snow_aggregate_lattice lattice, snow_site site)
+COPIED const void *find(const snow_ground *ground, snow_aggregate_lattice lattice, snow_site site)
 {
     if (lattice == SNOW_AGGREGATE_CUBIC)
-        return snow_space_map_look(&ground->space, site.x, site.y, site.z);
-    return snow_plane_map_look(&ground->plane, site.x, site.y);
+        return snow_space_map_find(&ground->space, site.x, site.y, site.z);
+    return snow_plane_map_find(&ground->plane, site.x, site.y);
+}
+
+COPIED snow_map_answer look(const void *page, snow_aggregate_lattice lattice, snow_site site)
+{
+    if (lattice == SNOW_AGGREGATE_CUBIC)
+        return snow_space_page_look(page, site.x, site.y, site.z);
+    return snow_plane_page_look(page, site.x, site.y);
 }
 
 COPIED int matter(const snow_ground *ground, snow_aggregate_lattice lattice, snow_site site)
@@ -80,35 +96,22 @@ COPIED snow_site fold(const snow_source_of_walkers *source, snow_aggregate_latti
     return site;
 }
 
-/* A site at distance `radius`, by the exact law: a small region, */
-COPIED snow_site step(const snow_exit_table *table, snow_aggregate_lattice lattice, snow_site site, uint64_t bits)
+/* The column of the table that a number points to. */
+COPIED const snow_exit *column_of(const snow_exit_table *table, uint64_t bits)
 {
-    const snow_exit_step *step = &table->step[(uint32_t)bits & table->step_mask];
-    const int8_t *way = step->way[(uint32_t)(bits >> 32) >= step->threshold];
-    site.x += way[0];
-    site.y += way[1];
-    if (lattice == SNOW_AGGREGATE_CUBIC)
-        site.z += way[2];
-    return site;
+    return &table->exit[(uint32_t)bits & table->mask];
 }
 
-/* and any other one. */
-COPIED snow_site jump(const snow_exit_table *table, snow_aggregate_lattice lattice, snow_site site, uint64_t bits)
+/* To a site at distance `radius`, by the exact law. */
+COPIED snow_site jump(const snow_exit *exit, int32_t radius, snow_aggregate_lattice lattice, snow_site site, uint64_t bits)
 {
     uint32_t low = (uint32_t)bits;
     uint32_t high = (uint32_t)(bits >> 32);
-    const snow_exit *exit = &table->exit[low & table->exit_mask];
-    int32_t radius = table->radius;
     if (lattice == SNOW_AGGREGATE_SQUARE) {
+        const int32_t *image = image_of_square[low >> 29];
         int32_t along = exit->outcome[high >= exit->threshold];
-        int32_t mirror = -(int32_t)(low >> 31);
-        int32_t turn = -(int32_t)(low >> 30 & 1);
-        int32_t back = -(int32_t)(low >> 29 & 1);
-        along = (along ^ mirror) - mirror;
-        int32_t across = (radius ^ back) - back;
-        int32_t swap = (along ^ across) & turn;
-        site.x += along ^ swap;
-        site.y += across ^ swap;
+        site.x += image[0] * along + image[1] * radius;
+        site.y += image[2] * along + image[3] * radius;
         return site;
     }
     uint64_t product = (uint64_t)high * 6;
@@ -187,104 +190,175 @@ COPIED bool trial(const snow_ground *ground, snow_aggregate_lattice lattice, sno
     return false;
 }
 
-COPIED void note(snow_diary *diary, snow_site site, uint32_t answer)
-{
-    if (diary->count < diary->room)
-        diary->question[diary->count] = (snow_question){site, answer};
-    diary->count++;
-}
-
 /* What the walker sees: the class, or, at a special site where it may go on, 256 and what is around. */
-COPIED uint32_t see(const snow_ground *ground, snow_aggregate_lattice lattice, bool careful, snow_site site)
+COPIED snow_map_answer see(const snow_ground *ground, snow_aggregate_lattice lattice, bool careful, snow_site site)
 {
-    uint32_t class = (uint32_t)look(ground, lattice, site);
-    if (careful && class == 0)
-        return 256 + (touched(ground, lattice, site) << 9);
-    return class;
+    snow_map_answer answer = look(find(ground, lattice, site), lattice, site);
+    if (careful && answer.seen == 0)
+        answer.seen = 256 + (touched(ground, lattice, site) << 9);
+    return answer;
 }
 
-COPIED snow_site fly(const snow_ground *ground, snow_draws *draws, snow_diary *diary, snow_aggregate_lattice lattice,
-                     bool careful, bool in_vessel, bool noted)
+/* What is constant for all walkers of a ground. */
+typedef struct manner {
+    snow_aggregate_lattice lattice;
+    bool careful;
+    bool in_vessel;
+} manner;
+
+/* From the middle of the region of a class to where the walker leaves it. */
+COPIED snow_site leave(const snow_ground *ground, manner how, snow_site site, uint32_t class, snow_draws *draws)
+{
+    const snow_exit_table *table = &ground->exits.table[class];
+    if (how.lattice == SNOW_AGGREGATE_HEXAGONAL && RARE(class >= (uint32_t)ground->exits.circles)) {
+        site = snow_source_circle(site, table->radius, draws);
+    } else {
+        uint64_t bits = snow_draws_next(draws);
+        site = jump(column_of(table, bits), table->radius, how.lattice, site, bits);
+    }
+    return how.in_vessel ? fold(&ground->source, how.lattice, site) : site;
+}
+
+static bool is_outside(const snow_ground *ground, manner how, snow_site site)
+{
+    if (how.lattice == SNOW_AGGREGATE_CUBIC)
+        return snow_space_map_find(&ground->space, site.x, site.y, site.z) == &ground->space.outside;
+    return snow_plane_map_find(&ground->plane, site.x, site.y) == &ground->plane.outside;
+}
+
+/* From outside the map until it is inside again. No cluster can change that. */
+COPIED snow_site come_in(const snow_ground *ground, manner how, snow_site site, snow_draws *draws)
 {
     const snow_source_of_walkers *source = &ground->source;
-    const uint32_t small = (uint32_t)ground->exits.small;
-    snow_site site = snow_source_launch(source, draws);
-    for (;;) {
-        uint32_t seen = see(ground, lattice, careful, site);
-        if (noted)
-            note(diary, site, seen);
-        if (RARE(seen == SNOW_MAP_BEYOND)) {
-            int64_t clear = clear_of(source, lattice, site);
-            if (RARE(clear > source->safe) && snow_source_is_beyond(source, site)) {
-                site = snow_source_return(source, site, draws);
-                continue;
-            }
-            seen = (uint32_t)snow_exits_class(&ground->exits, clear);
-        }
-        if (!careful && seen == 0)
-            return site;
-        if (careful && seen >= 256) {
-            if (trial(ground, lattice, &site, seen >> 9, draws))
-                return site;
-            continue;
-        }
-        const snow_exit_table *table = &ground->exits.table[seen];
-        if (seen <= small)
-            site = step(table, lattice, site, snow_draws_next(draws));
-        else if (lattice == SNOW_AGGREGATE_HEXAGONAL && RARE(table->exit == NULL))
-            site = snow_source_circle(site, table->radius, draws);
+    do {
+        int64_t clear = clear_of(source, how.lattice, site);
+        if (RARE(clear > source->safe) && snow_source_is_beyond(source, site))
+            site = snow_source_return(source, site, draws);
         else
-            site = jump(table, lattice, site, snow_draws_next(draws));
-        if (in_vessel)
-            site = fold(source, lattice, site);
+            site = leave(ground, how, site, (uint32_t)snow_exits_class(&ground->exits, clear), draws);
+    } while (is_outside(ground, how, site));
+    return site;
+}
+
+/* What the walker does when it has seen this. True: it has landed. */
+COPIED bool advance(const snow_ground *ground, manner how, snow_site *site, snow_draws *draws, uint32_t seen)
+{
+    if (RARE(seen == SNOW_MAP_BEYOND)) {
+        *site = come_in(ground, how, *site, draws);
+        return false;
     }
+    if (!how.careful && RARE(seen == 0))
+        return true;
+    if (how.careful && seen >= 256)
+        return trial(ground, how.lattice, site, seen >> 9, draws);
+    *site = leave(ground, how, *site, seen, draws);
+    return false;
 }
 
-COPIED snow_site fly_over(const snow_ground *ground, snow_draws *draws, snow_diary *diary,
-                          snow_aggregate_lattice lattice)
+COPIED snow_site site_of(const snow_flight *flight, manner how)
 {
-    bool in_vessel = ground->source.width > 0;
-    if (in_vessel || ground->careful)
-        return fly(ground, draws, diary, lattice, ground->careful, in_vessel, true);
-    if (diary->room > 0)
-        return fly(ground, draws, diary, lattice, false, false, true);
-    return fly(ground, draws, diary, lattice, false, false, false);
+    return (snow_site){flight->x, flight->y, how.lattice == SNOW_AGGREGATE_CUBIC ? flight->z : 0};
 }
 
-static snow_site fly_square(const snow_ground *ground, snow_draws *draws, snow_diary *diary)
+COPIED void put_at(snow_flight *flight, manner how, snow_site site)
 {
-    return fly_over(ground, draws, diary, SNOW_AGGREGATE_SQUARE);
+    flight->x = site.x;
+    flight->y = site.y;
+    if (how.lattice == SNOW_AGGREGATE_CUBIC)
+        flight->z = site.z;
 }
 
-static snow_site fly_hexagonal(const snow_ground *ground, snow_draws *draws, snow_diary *diary)
+COPIED void note(snow_flight *flight, snow_site site, snow_map_answer answer)
 {
-    return fly_over(ground, draws, diary, SNOW_AGGREGATE_HEXAGONAL);
+    flight->diary[flight->asked++] = (snow_question){answer.changed, site, answer.seen, flight->draws.used};
 }
 
-static snow_site fly_cubic(const snow_ground *ground, snow_draws *draws, snow_diary *diary)
+/* A turn. False: it cannot go on by itself, since it has landed or its diary is full. */
+COPIED bool go_on(const snow_ground *ground, manner how, snow_flight *flight)
 {
-    return fly_over(ground, draws, diary, SNOW_AGGREGATE_CUBIC);
+    if (RARE(flight->asked == flight->room))
+        return false;
+    snow_site site = site_of(flight, how);
+    snow_map_answer answer = see(ground, how.lattice, how.careful, site);
+    note(flight, site, answer);
+    bool lands = advance(ground, how, &site, &flight->draws, answer.seen);
+    put_at(flight, how, site);
+    if (RARE(lands))
+        flight->landed = true;
+    return !lands;
 }
 
-snow_site snow_flight(const snow_ground *ground, snow_draws *draws, snow_diary *diary)
+COPIED int share(const snow_ground *ground, manner how, snow_flight *const *flights, int count)
 {
-    switch (ground->exits.lattice) {
+    for (;;)
+        for (int i = 0; i < count; i++)
+            if (RARE(!go_on(ground, how, flights[i])))
+                return i;
+}
+
+static manner manner_of(const snow_ground *ground)
+{
+    return (manner){ground->exits.lattice, ground->careful, ground->source.width > 0};
+}
+
+/* The plain scenes have copies of their own. */
+int snow_flight_share(const snow_ground *ground, snow_flight *const *flights, int count)
+{
+    manner how = manner_of(ground);
+    if (how.careful || how.in_vessel)
+        return share(ground, how, flights, count);
+    switch (how.lattice) {
     case SNOW_AGGREGATE_HEXAGONAL:
-        return fly_hexagonal(ground, draws, diary);
+        return share(ground, (manner){SNOW_AGGREGATE_HEXAGONAL, false, false}, flights, count);
     case SNOW_AGGREGATE_CUBIC:
-        return fly_cubic(ground, draws, diary);
+        return share(ground, (manner){SNOW_AGGREGATE_CUBIC, false, false}, flights, count);
     default:
-        return fly_square(ground, draws, diary);
+        return share(ground, (manner){SNOW_AGGREGATE_SQUARE, false, false}, flights, count);
     }
 }
 
-bool snow_flight_holds(const snow_ground *ground, const snow_diary *diary)
+void snow_flight_finish(const snow_ground *ground, snow_flight *flight)
 {
-    snow_aggregate_lattice lattice = ground->exits.lattice;
-    for (size_t i = 0; i < diary->count; i++) {
-        const snow_question *question = &diary->question[i];
-        if (see(ground, lattice, ground->careful, question->site) != question->answer)
-            return false;
+    manner how = manner_of(ground);
+    snow_site site = site_of(flight, how);
+    while (!flight->landed) {
+        snow_map_answer answer = see(ground, how.lattice, how.careful, site);
+        flight->asked++;
+        flight->landed = advance(ground, how, &site, &flight->draws, answer.seen);
     }
-    return true;
+    put_at(flight, how, site);
+}
+
+static void set_down(snow_flight *flight, snow_site site)
+{
+    flight->x = site.x;
+    flight->y = site.y;
+    flight->z = site.z;
+    flight->landed = false;
+}
+
+void snow_flight_start(const snow_ground *ground, snow_flight *flight, uint64_t key, uint64_t walker)
+{
+    snow_draws_start(&flight->draws, ground->refill, key, walker);
+    set_down(flight, snow_source_launch(&ground->source, &flight->draws));
+    flight->asked = 0;
+}
+
+uint32_t snow_flight_outdated(const snow_ground *ground, const snow_flight *flight, uint64_t since)
+{
+    manner how = manner_of(ground);
+    for (uint32_t i = 0; i < flight->asked; i++) {
+        const snow_question *question = &flight->diary[i];
+        if (RARE(*question->changed > since) &&
+            see(ground, how.lattice, how.careful, question->site).seen != question->answer)
+            return i;
+    }
+    return flight->asked;
+}
+
+void snow_flight_rewind(snow_flight *flight, uint32_t question)
+{
+    set_down(flight, flight->diary[question].site);
+    snow_draws_move(&flight->draws, flight->diary[question].drawn);
+    flight->asked = question;
 }

@@ -29,10 +29,10 @@ static int64_t distance_of(const snow_growth *growth, snow_site site)
     return x * x + y * y + z * z;
 }
 
-/* The least of unit * 1, 2, 3, 4, 6, 8, 12 ... above a quarter more than wanted. */
-static int64_t extent(int64_t wanted, int64_t unit)
+/* The least of unit * 1, 2, 3, 4, 6, 8, 12 ... above a quarter more than wanted, and the margin that the maps need. */
+static int64_t extent(int64_t wanted, int64_t unit, int64_t margin)
 {
-    int64_t needed = wanted + wanted / 4;
+    int64_t needed = wanted + wanted / 4 + margin;
     int64_t size = unit;
     while (size < needed && size + size / 2 < needed)
         size *= 2;
@@ -48,8 +48,8 @@ static int64_t whole(int64_t sites, int64_t unit)
 
 static snow_plane_box plane_box(const snow_source_of_walkers *source)
 {
-    enum { UNIT = 1024, TILE = 64 };
-    int64_t up = extent(source->reach, UNIT);
+    enum { UNIT = 1024, TILE = 32 };
+    int64_t up = extent(source->reach, UNIT, SNOW_PLANE_MARGIN);
     if (source->width == 0)
         return (snow_plane_box){(int32_t)-up, (int32_t)-up, (uint32_t)(2 * up / TILE), (uint32_t)(2 * up / TILE)};
     int64_t left = source->lattice == SNOW_AGGREGATE_HEXAGONAL ? whole((up + 1) / 2, UNIT) : 0;
@@ -60,7 +60,7 @@ static snow_plane_box plane_box(const snow_source_of_walkers *source)
 static snow_space_box space_box(const snow_source_of_walkers *source)
 {
     enum { UNIT = 64, TILE = 16 };
-    int64_t up = extent(source->reach, UNIT);
+    int64_t up = extent(source->reach, UNIT, SNOW_SPACE_MARGIN);
     if (source->width == 0) {
         uint32_t tiles = (uint32_t)(2 * up / TILE);
         return (snow_space_box){(int32_t)-up, (int32_t)-up, (int32_t)-up, tiles, tiles, tiles};
@@ -223,73 +223,58 @@ typedef struct passage {
 
 /* Room is made before anyone hears of the walker: one that fails leaves no trace.
    True: another one may come. */
-static bool land(passage *all, snow_site site)
+static bool land(void *context, uint64_t walker, snow_site site)
 {
+    passage *all = context;
     const snow_growth_port *port = all->port;
+    snow_ground *ground = &all->growth->ground;
+    *(is_in_space(all->growth) ? &ground->space.landing : &ground->plane.landing) = walker + 1;
     bool fills = port->fills == NULL || port->fills(port->context, site);
     if (fills)
         all->status = add(all->growth, all->heap, site, false);
     if (all->status != SNOW_OK)
         return false;
     all->left -= fills;
+    if (!fills)
+        snow_ahead_extend(&all->growth->ahead);
     return port->arrives(port->context, site, fills) && all->left > 0;
-}
-
-static snow_site walk(const snow_growth *growth, uint64_t key, uint64_t walker, snow_diary *diary)
-{
-    snow_draws draws;
-    snow_draws_start(&draws, growth->ground.refill, key, walker);
-    return snow_flight(&growth->ground, &draws, diary);
-}
-
-static uint64_t run_alone(passage *all, uint64_t walker)
-{
-    snow_diary none = {.question = NULL};
-    bool goes_on = true;
-    for (; goes_on; walker++)
-        goes_on = land(all, walk(all->growth, all->growth->rules.seed, walker, &none));
-    return walker;
-}
-
-static bool land_in_turn(void *context, snow_site site)
-{
-    return land(context, site);
-}
-
-static uint64_t run_ahead(passage *all, const snow_growth_crew *crew, uint64_t walker)
-{
-    snow_ahead *ahead = &all->growth->ahead;
-    ahead->ground = &all->growth->ground;
-    ahead->key = all->growth->rules.seed;
-    ahead->land = land_in_turn;
-    ahead->context = all;
-    return snow_ahead_run(ahead, crew->loop, crew->context, crew->threads, walker);
 }
 
 snow_status snow_growth_run(snow_growth *growth, snow_heap *heap, const snow_growth_crew *crew, uint64_t most,
                             uint64_t *walker, const snow_growth_port *port)
 {
     passage all = {growth, heap, port, most, SNOW_OK};
-    snow_status status = crew->threads < 2 ? SNOW_OK : snow_ahead_start(&growth->ahead, heap, crew->threads);
+    snow_ahead *ahead = &growth->ahead;
+    snow_status status = snow_ahead_start(ahead, heap, crew->threads, is_in_space(growth));
     if (status != SNOW_OK || most == 0)
         return status;
-    uint64_t next = crew->threads < 2 ? run_alone(&all, *walker) : run_ahead(&all, crew, *walker);
+    ahead->ground = &growth->ground;
+    ahead->key = growth->rules.seed;
+    ahead->land = land;
+    ahead->context = &all;
+    uint64_t next = snow_ahead_run(ahead, crew->loop, crew->context, *walker, most);
     *walker = all.status == SNOW_OK ? next : next - 1;
     return all.status;
 }
 
+/* Where a walker of another family of streams ends. */
+static snow_flight fly_alone(const snow_growth *growth, uint64_t key, uint64_t walker)
+{
+    snow_flight flight = {.room = 0};
+    snow_flight_start(&growth->ground, &flight, key, walker);
+    snow_flight_finish(&growth->ground, &flight);
+    return flight;
+}
+
 snow_site snow_growth_probe(const snow_growth *growth, uint64_t key, uint64_t walker)
 {
-    snow_diary none = {.question = NULL};
-    return walk(growth, key, walker, &none);
+    snow_flight flight = fly_alone(growth, key, walker);
+    return (snow_site){flight.x, flight.y, flight.z};
 }
 
 uint64_t snow_growth_probe_jumps(const snow_growth *growth, uint64_t key, uint64_t walker)
 {
-    snow_question last;
-    snow_diary count = {&last, 0, 1};
-    walk(growth, key, walker, &count);
-    return count.count;
+    return fly_alone(growth, key, walker).asked;
 }
 
 uint64_t snow_growth_repeats(const snow_growth *growth)

@@ -68,7 +68,7 @@ snow_status snow_growth_run(snow_growth *growth, snow_heap *heap, const snow_gro
 /* Where one walker of another family of streams ends on the cluster as it stands. */
 snow_site snow_growth_probe(const snow_growth *growth, uint64_t key, uint64_t walker);
 
-/* How many jumps and steps that takes. */
+/* How many jumps and steps that takes inside the map. */
 uint64_t snow_growth_probe_jumps(const snow_growth *growth, uint64_t key, uint64_t walker);
 
 /* Walks that were done again because the cluster had changed under them, so far. */

@@ -2,13 +2,24 @@
 #ifndef SNOW_AGGREGATE_MATTER_H
 #define SNOW_AGGREGATE_MATTER_H
 
+#include "aggregate/exits.h"
+
 #include <stdatomic.h>
+#include <stdint.h>
 
 /* What is on a site, as bits. */
 enum { SNOW_MATTER_FILLED = 1, SNOW_MATTER_OBSTACLE = 2 };
 
-/* The answer of a map where it ends: no class. */
-enum { SNOW_MAP_BEYOND = 255 };
+/* The answer of a map where it ends: no class, but a place in the table of classes. */
+enum { SNOW_MAP_BEYOND = SNOW_EXIT_CLASSES };
+
+/* Answers come with the place of a number: as long as that number is not greater,
+   the same question has the same answer. It is that of the last landing that
+   changed what is known thereabouts; for those who land walkers. */
+typedef struct snow_map_answer {
+    uint32_t seen;
+    const uint64_t *changed;
+} snow_map_answer;
 
 /* One thread at a time changes a map while others read it (ahead.h): each number
    is old or new, and what is behind an address is complete. */

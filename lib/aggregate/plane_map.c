@@ -1,15 +1,19 @@
 #include "aggregate/plane_map.h"
 
+#include "base/floating.h"
 #include "base/hexagon.h"
 
 #include <string.h>
 
 enum {
     NEAR_REACH = SNOW_PLANE_NEAR,
-    FAR_REACH = 15, /* patches, tiles, squares */
-    BEYOND = FAR_REACH + 1,
-    MARGIN = 16 /* of the table of distances */
+    PATCH_REACH = SNOW_PLANE_PATCHES,
+    FAR_REACH = SNOW_PLANE_FAR, /* tiles, squares */
+    MARGIN = 8,                 /* of the tables of classes, in blocks */
+    SITE_REACH = 3              /* of what a filled site says about sites */
 };
+
+snow_plane_matter snow_plane_nothing;
 
 /* Blocks apart: a block d away leaves (d − 1) blocks free between. */
 static int apart(snow_aggregate_lattice lattice, int i, int j)
@@ -43,32 +47,35 @@ static int distance_to_contact(snow_aggregate_lattice lattice, int x, int y)
     return least;
 }
 
-/* A word holds 3 − distance for each site: the upper bit in its upper half. */
-static uint32_t print_of(snow_aggregate_lattice lattice, int place, int block)
+static int64_t at_least(int64_t x, int64_t least)
 {
-    uint32_t word = 0;
-    for (int bit = 0; bit < 16; bit++) {
-        int x = bit % 4 + 4 * (block % 3 - 1) - place % 4;
-        int y = bit / 4 + 4 * (block / 3 - 1) - place / 4;
-        int d = distance_to_contact(lattice, x, y);
-        int code = d < 3 ? 3 - d : 0;
-        word |= (uint32_t)(code & 1) << bit | (uint32_t)(code >> 1) << (bit + 16);
+    return x < least ? least : x;
+}
+
+static int64_t at_most(int64_t x, int64_t most)
+{
+    return x > most ? most : x;
+}
+
+/* A word holds 3 − distance for sixteen sites of a row. */
+static uint32_t print_of(snow_aggregate_lattice lattice, int place, int row, int word)
+{
+    uint32_t print = 0;
+    for (int site = 0; site < 16; site++) {
+        int d = distance_to_contact(lattice, site + 16 * word - place, row);
+        print |= (uint32_t)(d < 3 ? 3 - d : 0) << (2 * site);
     }
-    return word;
+    return print;
 }
 
 /* The greater code of each site. */
 static uint32_t greater(uint32_t a, uint32_t b)
 {
-    uint32_t upper_a = a >> 16;
-    uint32_t upper_b = b >> 16;
+    const uint32_t lower_bits = 0x55555555;
+    uint32_t upper_a = a >> 1 & lower_bits;
+    uint32_t upper_b = b >> 1 & lower_bits;
     uint32_t lower = (a & (upper_a | ~upper_b)) | (b & (upper_b | ~upper_a));
-    return (upper_a | upper_b) << 16 | (lower & 0xFFFF);
-}
-
-static bool has_special(uint32_t print)
-{
-    return (print & print >> 16 & 0xFFFF) != 0;
+    return (upper_a | upper_b) << 1 | (lower & lower_bits);
 }
 
 static size_t squares_of(snow_plane_box box)
@@ -81,51 +88,56 @@ static size_t tiles_of(snow_plane_box box)
     return (size_t)box.columns * box.rows;
 }
 
+static void start_page(snow_plane_page *page, uint8_t class, int distance, uint64_t landing)
+{
+    page->distance = (uint8_t)distance;
+    page->changed = landing;
+    for (int i = 0; i < 64; i++)
+        atomic_init(&page->near[i], class);
+    for (int i = 0; i < 4; i++)
+        atomic_init(&page->line[i], &snow_plane_nothing.line);
+}
+
 static snow_status cover(snow_plane_map *map, snow_heap *heap, snow_plane_box box)
 {
-    _Atomic uintptr_t *tile = snow_heap_get_raw(heap, tiles_of(box), sizeof *tile);
-    _Atomic uint8_t *patch = snow_heap_get_raw(heap, tiles_of(box), 16);
-    _Atomic uint8_t *square = snow_heap_get_raw(heap, squares_of(box), 1);
-    if (tile == NULL || patch == NULL || square == NULL) {
+    snow_plane_page *_Atomic *tile = snow_heap_get_raw(heap, tiles_of(box), sizeof *tile);
+    snow_plane_page *square = snow_heap_get_raw(heap, squares_of(box), sizeof *square);
+    uint8_t *square_distance = snow_heap_get_raw(heap, squares_of(box), 1);
+    if (tile == NULL || square == NULL || square_distance == NULL) {
+        snow_heap_put(heap, square_distance);
         snow_heap_put(heap, square);
-        snow_heap_put(heap, patch);
         snow_heap_put(heap, tile);
         return heap->refusal;
     }
-    for (size_t i = 0; i < tiles_of(box); i++)
-        atomic_init(&tile[i], BEYOND);
-    for (size_t i = 0; i < 16 * tiles_of(box); i++)
-        atomic_init(&patch[i], BEYOND);
+    memset(square_distance, FAR_REACH + 1, squares_of(box));
     for (size_t i = 0; i < squares_of(box); i++)
-        atomic_init(&square[i], BEYOND);
+        start_page(&square[i], map->square_class[FAR_REACH + 1], FAR_REACH + 1, 0);
+    for (size_t row = 0; row < box.rows; row++)
+        for (size_t column = 0; column < box.columns; column++)
+            atomic_init(&tile[row * box.columns + column], &square[row / 16 * (box.columns / 16) + column / 16]);
     map->box = box;
-    map->width = box.columns * 64;
-    map->height = box.rows * 64;
+    map->width = box.columns * 32;
+    map->height = box.rows * 32;
     map->tile = tile;
-    map->patch = patch;
     map->square = square;
+    map->square_distance = square_distance;
     return SNOW_OK;
 }
 
 static void uncover(const snow_plane_map *map, snow_heap *heap)
 {
+    snow_heap_put(heap, map->square_distance);
     snow_heap_put(heap, map->square);
-    snow_heap_put(heap, map->patch);
     snow_heap_put(heap, map->tile);
 }
 
-/* Where nothing is near, and nothing is. */
-static snow_plane_matter nothing;
-
-static snow_plane_line *line_with(snow_plane_map *map, snow_plane_page *page, uint32_t i, uint32_t j)
+static bool patch_holds_special(const snow_plane_page *page, uint32_t u, uint32_t v)
 {
-    uint32_t place = j / 4 * 4 + i / 4;
-    snow_plane_line *line = SNOW_MAP_GET(page->line[place]);
-    if (line == &nothing.line) {
-        line = snow_pool_take(&map->lines);
-        SNOW_MAP_PUT_ADDRESS(page->line[place], line);
-    }
-    return line;
+    bool found = false;
+    for (uint32_t row = 0; row < 4; row++)
+        for (uint32_t column = 0; column < 4; column++)
+            found |= SNOW_MAP_GET(page->near[(v / 16 % 2 * 4 + row) * 8 + u / 16 % 2 * 4 + column]) == 0;
+    return found;
 }
 
 static bool holds_special(const snow_plane_page *page)
@@ -133,25 +145,47 @@ static bool holds_special(const snow_plane_page *page)
     return memchr((const void *)page->near, 0, sizeof page->near) != NULL;
 }
 
+static uint8_t class_of(const snow_exits *exits, int64_t free)
+{
+    return (uint8_t)snow_exits_class(exits, free + 1);
+}
+
 /* What each distance leaves free, at least. */
 static void make_classes(snow_plane_map *map, const snow_exits *exits)
 {
-    for (int d = 0; d <= BEYOND; d++) {
-        int64_t patch = d <= 2 ? 4 * NEAR_REACH + 1 : 16 * (d - 1) + 1;
-        int64_t tile = 64 * (d - 1) + 1;
-        int64_t square = d <= 1 ? 64 * FAR_REACH + 1 : 1024 * (d - 1) + 1;
-        map->patch_class[d] = (uint8_t)snow_exits_class(exits, patch);
-        map->tile_class[d] = (uint8_t)snow_exits_class(exits, tile);
-        map->square_class[d] = (uint8_t)snow_exits_class(exits, square);
+    for (int d = 0; d <= NEAR_REACH + 1; d++)
+        map->near_class[d] = d < 2 ? (uint8_t)d : class_of(exits, 4 * (d - 1));
+    for (int d = 1; d <= FAR_REACH; d++)
+        start_page(&map->far[d], class_of(exits, 32 * (d - 1)), d, 0);
+    for (int d = 0; d <= FAR_REACH + 1; d++)
+        map->square_class[d] = class_of(exits, d <= 1 ? 32 * FAR_REACH : 512 * (d - 1));
+}
+
+/* Whatever stands in the way: what is nearer than a page tells it tells by blocks. */
+static void make_rows(snow_plane_map *map, const snow_exits *exits)
+{
+    for (int j = -NEAR_REACH; j <= NEAR_REACH; j++) {
+        for (int i = -NEAR_REACH - MARGIN; i <= NEAR_REACH + MARGIN; i++) {
+            int64_t d = at_most(apart(map->lattice, i, j), NEAR_REACH + 1);
+            map->near[j + NEAR_REACH][i + NEAR_REACH + MARGIN] = map->near_class[d];
+        }
+    }
+    for (int j = -PATCH_REACH; j <= PATCH_REACH; j++) {
+        for (int i = -4 * PATCH_REACH - MARGIN; i < 4 * (PATCH_REACH + 1) + MARGIN; i++) {
+            int patch = (i + 4 * PATCH_REACH + MARGIN) / 4 - PATCH_REACH - MARGIN / 4;
+            int64_t d = at_most(apart(map->lattice, patch, j), PATCH_REACH + 1);
+            map->patch[j + PATCH_REACH][i + 4 * PATCH_REACH + MARGIN] =
+                class_of(exits, at_least(16 * (d - 1), 4 * NEAR_REACH));
+        }
     }
 }
 
-static void make_distances(snow_plane_map *map)
+static void make_prints(snow_plane_map *map)
 {
-    memset(map->apart, 127, sizeof map->apart);
-    for (int j = -FAR_REACH; j <= FAR_REACH; j++)
-        for (int i = -FAR_REACH; i <= FAR_REACH; i++)
-            map->apart[j + FAR_REACH][i + FAR_REACH + MARGIN] = (uint8_t)apart(map->lattice, i, j);
+    for (int place = 0; place < 16; place++)
+        for (int row = -SITE_REACH; row <= SITE_REACH; row++)
+            for (int word = -1; word <= 1; word++)
+                map->print[place][row + SITE_REACH][word + 1] = print_of(map->lattice, place, row, word);
 }
 
 snow_status snow_plane_map_start(snow_plane_map *map, snow_heap *heap, const snow_exits *exits, bool keeps_matter,
@@ -163,11 +197,10 @@ snow_status snow_plane_map_start(snow_plane_map *map, snow_heap *heap, const sno
         .keeps_matter = keeps_matter,
         .lattice = exits->lattice,
     };
+    start_page(&map->outside, SNOW_MAP_BEYOND, FAR_REACH + 1, 0);
     make_classes(map, exits);
-    make_distances(map);
-    for (int place = 0; place < 16; place++)
-        for (int block = 0; block < 9; block++)
-            map->print[place][block] = print_of(map->lattice, place, block);
+    make_rows(map, exits);
+    make_prints(map);
     return cover(map, heap, box);
 }
 
@@ -176,34 +209,40 @@ void snow_plane_map_end(snow_plane_map *map, snow_heap *heap)
     snow_pool_end(&map->lines, heap);
     snow_pool_end(&map->pages, heap);
     uncover(map, heap);
+    map->square_distance = NULL;
     map->square = NULL;
-    map->patch = NULL;
     map->tile = NULL;
-}
-
-static int64_t at_least(int64_t x, int64_t least)
-{
-    return x < least ? least : x;
-}
-
-static int64_t at_most(int64_t x, int64_t most)
-{
-    return x > most ? most : x;
 }
 
 static snow_plane_page *page_of(snow_plane_map *map, int64_t column, int64_t row)
 {
-    _Atomic uintptr_t *entry = &map->tile[(size_t)row * map->box.columns + (size_t)column];
-    uintptr_t known = SNOW_MAP_GET(*entry);
-    if (known > BEYOND)
-        return (snow_plane_page *)known;
-    snow_plane_page *page = snow_pool_take(&map->pages);
-    for (int i = 0; i < 256; i++)
-        atomic_init(&page->near[i], NEAR_REACH + 1);
-    for (int i = 0; i < 16; i++)
-        atomic_init(&page->line[i], &nothing.line);
-    SNOW_MAP_PUT_ADDRESS(*entry, (uintptr_t)page);
+    snow_plane_page *_Atomic *entry = &map->tile[(size_t)row * map->box.columns + (size_t)column];
+    snow_plane_page *page = SNOW_MAP_GET(*entry);
+    if (page->distance == 0)
+        return page;
+    page->changed = map->landing;
+    page = snow_pool_take(&map->pages);
+    start_page(page, map->patch[0][0], 0, map->landing);
+    SNOW_MAP_PUT_ADDRESS(*entry, page);
     return page;
+}
+
+static snow_plane_page *known_page(const snow_plane_map *map, uint32_t u, uint32_t v)
+{
+    return SNOW_MAP_GET(map->tile[(size_t)(v / 32) * map->box.columns + u / 32]);
+}
+
+static snow_plane_line *line_of(snow_plane_map *map, uint32_t u, uint32_t v)
+{
+    uint32_t place = v / 16 % 2 * 2 + u / 16 % 2;
+    snow_plane_page *page = known_page(map, u, v);
+    page->changed = map->landing;
+    snow_plane_line *line = SNOW_MAP_GET(page->line[place]);
+    if (line == &snow_plane_nothing.line) {
+        line = snow_pool_take(&map->lines);
+        SNOW_MAP_PUT_ADDRESS(page_of(map, u / 32, v / 32)->line[place], line);
+    }
+    return line;
 }
 
 /* Whether none of eight bounds is below what is known; all are less than 128. */
@@ -218,35 +257,34 @@ static bool are_known(const _Atomic uint8_t *known, const uint8_t *bound)
 }
 
 /* The lesser of each two. */
-static void lower(_Atomic uint8_t *known, const uint8_t *bound, int64_t count)
+static void lower(_Atomic uint8_t *known, const uint8_t *bound)
 {
-    for (int64_t i = 0; i < count; i++)
+    for (int i = 0; i < 8; i++)
         if (bound[i] < SNOW_MAP_GET(known[i]))
             SNOW_MAP_PUT(known[i], bound[i]);
 }
 
-static void lower_eights(_Atomic uint8_t *known, const uint8_t *bound, int64_t count)
+static void lower_row(snow_plane_map *map, snow_plane_page *page, int64_t row, const uint8_t *bound)
 {
-    for (int64_t i = 0; i < count; i += 8)
-        if (!are_known(known + i, bound + i))
-            lower(known + i, bound + i, 8);
+    _Atomic uint8_t *known = &page->near[row % 8 * 8];
+    if (are_known(known, bound))
+        return;
+    lower(known, bound);
+    page->changed = map->landing;
 }
 
 /* The block (i, j) has got its first special site. */
 static void spread_near(snow_plane_map *map, int64_t i, int64_t j)
 {
     int64_t first_row = at_least(j - NEAR_REACH, 0);
-    int64_t last_row = at_most(j + NEAR_REACH, (int64_t)map->box.rows * 16 - 1);
-    int64_t first_tile = at_least(i - NEAR_REACH, 0) / 16;
-    int64_t last_tile = at_most(i + NEAR_REACH, (int64_t)map->box.columns * 16 - 1) / 16;
-    for (int64_t tile = first_tile; tile <= last_tile; tile++) {
+    int64_t last_row = at_most(j + NEAR_REACH, (int64_t)map->box.rows * 8 - 1);
+    int64_t last_tile = at_most(i + NEAR_REACH, (int64_t)map->box.columns * 8 - 1) / 8;
+    for (int64_t tile = at_least(i - NEAR_REACH, 0) / 8; tile <= last_tile; tile++) {
         for (int64_t row = first_row; row <= last_row;) {
-            snow_plane_page *page = page_of(map, tile, row / 16);
-            int64_t end = at_most(row - row % 16 + 16, last_row + 1);
-            for (; row < end; row++) {
-                const uint8_t *bound = &map->apart[row - j + FAR_REACH][tile * 16 - i + FAR_REACH + MARGIN];
-                lower_eights(&page->near[row % 16 * 16], bound, 16);
-            }
+            snow_plane_page *page = page_of(map, tile, row / 8);
+            int64_t end = at_most(row - row % 8 + 8, last_row + 1);
+            for (; row < end; row++)
+                lower_row(map, page, row, &map->near[row - j + NEAR_REACH][8 * tile - i + NEAR_REACH + MARGIN]);
         }
     }
 }
@@ -254,64 +292,71 @@ static void spread_near(snow_plane_map *map, int64_t i, int64_t j)
 /* The patch (i, j) has got its first special site. */
 static void spread_patch(snow_plane_map *map, int64_t i, int64_t j)
 {
-    int64_t columns = map->box.columns * 4;
-    int64_t first = at_least(i - FAR_REACH, 0);
-    int64_t last = at_most(i + FAR_REACH, columns - 1);
-    int64_t last_row = at_most(j + FAR_REACH, (int64_t)map->box.rows * 4 - 1);
-    for (int64_t y = at_least(j - FAR_REACH, 0); y <= last_row; y++) {
-        const uint8_t *bound = &map->apart[y - j + FAR_REACH][first - i + FAR_REACH + MARGIN];
-        int64_t eights = (last + 1 - first) / 8 * 8;
-        lower_eights(&map->patch[y * columns + first], bound, eights);
-        lower(&map->patch[y * columns + first + eights], bound + eights, last + 1 - first - eights);
+    int64_t first_row = at_least(j - PATCH_REACH, 0) * 4;
+    int64_t last_row = at_most(j + PATCH_REACH, (int64_t)map->box.rows * 2 - 1) * 4 + 3;
+    int64_t last_tile = at_most(i + PATCH_REACH, (int64_t)map->box.columns * 2 - 1) / 2;
+    for (int64_t tile = at_least(i - PATCH_REACH, 0) / 2; tile <= last_tile; tile++) {
+        for (int64_t row = first_row; row <= last_row;) {
+            snow_plane_page *page = page_of(map, tile, row / 8);
+            int64_t end = at_most(row - row % 8 + 8, last_row + 1);
+            for (; row < end; row++)
+                lower_row(map, page, row, &map->patch[row / 4 - j + PATCH_REACH][4 * (2 * tile - i + PATCH_REACH) + MARGIN]);
+        }
     }
-    map->far_changes++;
 }
 
 static void spread_square(snow_plane_map *map, int64_t i, int64_t j)
 {
     int64_t columns = map->box.columns / 16;
-    int64_t rows = map->box.rows / 16;
-    int64_t first = at_least(i - FAR_REACH, 0);
+    int64_t last_row = at_most(j + FAR_REACH, map->box.rows / 16 - 1);
     int64_t last = at_most(i + FAR_REACH, columns - 1);
-    for (int64_t y = at_least(j - FAR_REACH, 0); y <= at_most(j + FAR_REACH, rows - 1); y++) {
-        const uint8_t *bound = &map->apart[y - j + FAR_REACH][first - i + FAR_REACH + MARGIN];
-        lower(&map->square[y * columns + first], bound, last + 1 - first);
+    for (int64_t y = at_least(j - FAR_REACH, 0); y <= last_row; y++) {
+        for (int64_t x = at_least(i - FAR_REACH, 0); x <= last; x++) {
+            int64_t d = apart(map->lattice, (int)(x - i), (int)(y - j));
+            uint8_t *known = &map->square_distance[y * columns + x];
+            if (d >= *known)
+                continue;
+            *known = (uint8_t)d;
+            snow_plane_page *page = &map->square[y * columns + x];
+            for (int k = 0; k < 64; k++)
+                SNOW_MAP_PUT(page->near[k], map->square_class[d]);
+            page->changed = map->landing;
+        }
     }
 }
 
 /* The tile (i, j) has got its first special site. */
 static void spread_tile(snow_plane_map *map, int64_t i, int64_t j)
 {
-    for (int64_t y = at_least(j - FAR_REACH, 0); y <= at_most(j + FAR_REACH, (int64_t)map->box.rows - 1); y++) {
-        for (int64_t x = at_least(i - FAR_REACH, 0); x <= at_most(i + FAR_REACH, (int64_t)map->box.columns - 1); x++) {
-            _Atomic uintptr_t *entry = &map->tile[(size_t)y * map->box.columns + (size_t)x];
-            uintptr_t known = SNOW_MAP_GET(*entry);
-            uintptr_t d = map->apart[y - j + FAR_REACH][x - i + FAR_REACH + MARGIN];
-            if (known <= BEYOND && d < known)
-                SNOW_MAP_PUT(*entry, d);
+    int64_t last_row = at_most(j + FAR_REACH, (int64_t)map->box.rows - 1);
+    int64_t last = at_most(i + FAR_REACH, (int64_t)map->box.columns - 1);
+    for (int64_t y = at_least(j - FAR_REACH, 0); y <= last_row; y++) {
+        for (int64_t x = at_least(i - FAR_REACH, 0); x <= last; x++) {
+            snow_plane_page *_Atomic *entry = &map->tile[(size_t)y * map->box.columns + (size_t)x];
+            snow_plane_page *page = SNOW_MAP_GET(*entry);
+            int d = apart(map->lattice, (int)(x - i), (int)(y - j));
+            if (d >= page->distance)
+                continue;
+            page->changed = map->landing;
+            SNOW_MAP_PUT_ADDRESS(*entry, &map->far[d]);
         }
     }
-    map->far_changes++;
-    int64_t columns = map->box.columns / 16;
-    if (SNOW_MAP_GET(map->square[j / 16 * columns + i / 16]) != 0)
+    if (map->square_distance[j / 16 * (map->box.columns / 16) + i / 16] != 0)
         spread_square(map, i / 16, j / 16);
 }
 
-/* Pages and patches move to the new box. */
+/* Pages move to the new box. */
 static void copy_in(snow_plane_map *map, const snow_plane_map *old)
 {
-    int64_t shift_x = ((int64_t)old->box.x - map->box.x) / 64;
-    int64_t shift_y = ((int64_t)old->box.y - map->box.y) / 64;
+    int64_t shift_x = ((int64_t)old->box.x - map->box.x) / 32;
+    int64_t shift_y = ((int64_t)old->box.y - map->box.y) / 32;
     for (int64_t y = 0; y < old->box.rows; y++) {
         for (int64_t x = 0; x < old->box.columns; x++) {
-            uintptr_t entry = SNOW_MAP_GET(old->tile[(size_t)y * old->box.columns + (size_t)x]);
-            if (entry > BEYOND)
-                SNOW_MAP_PUT(map->tile[(size_t)(y + shift_y) * map->box.columns + (size_t)(x + shift_x)], entry);
+            snow_plane_page *page = SNOW_MAP_GET(old->tile[(size_t)y * old->box.columns + (size_t)x]);
+            if (page->distance == 0)
+                SNOW_MAP_PUT(map->tile[(size_t)(y + shift_y) * map->box.columns + (size_t)(x + shift_x)], page);
         }
     }
-    for (int64_t y = 0; y < (int64_t)old->box.rows * 4; y++)
-        memcpy((void *)(map->patch + (size_t)(y + 4 * shift_y) * (map->box.columns * 4) + 4 * shift_x),
-               (const void *)(old->patch + (size_t)y * (old->box.columns * 4)), old->box.columns * 4);
 }
 
 snow_status snow_plane_map_widen(snow_plane_map *map, snow_heap *heap, snow_plane_box box)
@@ -324,68 +369,78 @@ snow_status snow_plane_map_widen(snow_plane_map *map, snow_heap *heap, snow_plan
     uncover(&old, heap);
     for (int64_t y = 0; y < box.rows; y++) {
         for (int64_t x = 0; x < box.columns; x++) {
-            uintptr_t entry = SNOW_MAP_GET(map->tile[(size_t)y * box.columns + (size_t)x]);
-            if (entry > BEYOND && holds_special((const snow_plane_page *)entry))
+            const snow_plane_page *page = SNOW_MAP_GET(map->tile[(size_t)y * box.columns + (size_t)x]);
+            if (page->distance == 0 && holds_special(page))
                 spread_tile(map, x, y);
         }
     }
-    for (int64_t y = 0; y < (int64_t)box.rows * 4; y++)
-        for (int64_t x = 0; x < (int64_t)box.columns * 4; x++)
-            if (SNOW_MAP_GET(map->patch[y * box.columns * 4 + x]) == 0)
-                spread_patch(map, x, y);
     return SNOW_OK;
 }
 
 snow_status snow_plane_map_reserve(snow_plane_map *map, snow_heap *heap)
 {
-    enum { BLOCKS = 9, TILES = 9 };
+    enum { LINES = 4, TILES = 64 };
     snow_status status = snow_pool_reserve(&map->pages, heap, TILES);
-    return status == SNOW_OK ? snow_pool_reserve(&map->lines, heap, BLOCKS) : status;
+    return status == SNOW_OK ? snow_pool_reserve(&map->lines, heap, LINES) : status;
 }
 
-static void add_special(snow_plane_map *map, snow_plane_page *page, int32_t i, int32_t j)
+/* In a block that had none. */
+static SNOW_APART void add_first_special(snow_plane_map *map, uint32_t u, uint32_t v)
 {
-    if (SNOW_MAP_GET(page->near[j % 16 * 16 + i % 16]) == 0)
-        return;
-    bool is_first = !holds_special(page);
-    spread_near(map, i, j);
-    if (SNOW_MAP_GET(map->patch[(size_t)(j / 4) * (map->box.columns * 4) + (size_t)(i / 4)]) != 0)
-        spread_patch(map, i / 4, j / 4);
-    if (is_first)
-        spread_tile(map, i / 16, j / 16);
+    const snow_plane_page *page = page_of(map, u / 32, v / 32);
+    bool is_first_of_tile = !holds_special(page);
+    bool is_first_of_patch = !patch_holds_special(page, u, v);
+    spread_near(map, u / 4, v / 4);
+    if (is_first_of_patch)
+        spread_patch(map, u / 16, v / 16);
+    if (is_first_of_tile)
+        spread_tile(map, u / 32, v / 32);
 }
 
-static void add_print(snow_plane_map *map, int32_t i, int32_t j, uint32_t print)
+static void add_special(snow_plane_map *map, uint32_t u, uint32_t v)
 {
-    if ((uint32_t)i >= map->box.columns * 16 || (uint32_t)j >= map->box.rows * 16)
-        return;
-    snow_plane_page *page = page_of(map, i / 16, j / 16);
-    if (has_special(print))
-        add_special(map, page, i, j);
-    snow_plane_line *line = line_with(map, page, (uint32_t)i % 16, (uint32_t)j % 16);
-    _Atomic uint32_t *word = &line->word[j % 4 * 4 + i % 4];
-    SNOW_MAP_PUT(*word, greater(SNOW_MAP_GET(*word), print));
+    if (u < map->width && v < map->height && SNOW_MAP_GET(known_page(map, u, v)->near[v / 4 % 8 * 8 + u / 4 % 8]) != 0)
+        add_first_special(map, u, v);
 }
 
-static void add_matter(snow_plane_map *map, uint32_t u, uint32_t v, bool obstacle)
+/* The rows of one line, `first` to `last` of the map. */
+static void add_print(snow_plane_map *map, uint32_t u, uint32_t first, uint32_t last, const uint32_t *print)
 {
-    snow_plane_page *page = page_of(map, u / 64, v / 64);
-    snow_plane_matter *matter = (snow_plane_matter *)line_with(map, page, u / 4 % 16, v / 4 % 16);
-    _Atomic uint16_t *word = &(obstacle ? matter->obstacle : matter->filled)[v / 4 % 4 * 4 + u / 4 % 4];
-    SNOW_MAP_PUT(*word, (uint16_t)(SNOW_MAP_GET(*word) | 1u << (v % 4 * 4 + u % 4)));
+    snow_plane_line *line = line_of(map, u, first);
+    for (uint32_t v = first; v <= last; v++, print += 3) {
+        _Atomic uint32_t *row = &line->row[v % 16];
+        SNOW_MAP_PUT(*row, greater(SNOW_MAP_GET(*row), *print));
+    }
+}
+
+/* What a site says about those up to three away. */
+static void add_prints(snow_plane_map *map, int64_t u, int64_t v)
+{
+    const uint32_t *print = map->print[(u + 16) % 16][0];
+    int64_t least = at_least(v - SITE_REACH, 0);
+    int64_t most = at_most(v + SITE_REACH, (int64_t)map->height - 1);
+    for (int word = 0; word < 3; word++) {
+        int64_t column = u + 16 * (word - 1);
+        if (column < 0 || column >= (int64_t)map->width || (word == 0 && u % 16 >= 3) || (word == 2 && u % 16 < 13))
+            continue;
+        for (int64_t first = least; first <= most; first = first - first % 16 + 16) {
+            int64_t last = at_most(first - first % 16 + 15, most);
+            add_print(map, (uint32_t)column, (uint32_t)first, (uint32_t)last, print + 3 * (first - v + SITE_REACH) + word);
+        }
+    }
 }
 
 void snow_plane_map_add(snow_plane_map *map, int32_t x, int32_t y, bool obstacle)
 {
-    int32_t u = x - map->box.x;
-    int32_t v = y - map->box.y;
-    int32_t i = (u + 4) / 4 - 1; /* u and v may be -1: a floor */
-    int32_t j = (v + 4) / 4 - 1;
-    const uint32_t *print = map->print[(v + 4) % 4 * 4 + (u + 4) % 4];
-    for (int row = 0; row < 3; row++)
-        for (int column = 0; column < 3; column++)
-            if (print[3 * row + column] != 0)
-                add_print(map, i + column - 1, j + row - 1, print[3 * row + column]);
-    if (map->keeps_matter && (uint32_t)u < map->width && (uint32_t)v < map->height)
-        add_matter(map, (uint32_t)u, (uint32_t)v, obstacle);
+    uint32_t u = (uint32_t)x - (uint32_t)map->box.x; /* in a floor v is −1 */
+    uint32_t v = (uint32_t)y - (uint32_t)map->box.y;
+    add_special(map, u, v);
+    for (int k = 0; k < (map->lattice == SNOW_AGGREGATE_HEXAGONAL ? 6 : 4); k++)
+        add_special(map, u + (uint32_t)neighbour_x[k], v + (uint32_t)neighbour_y[k]);
+    add_prints(map, (int64_t)x - map->box.x, (int64_t)y - map->box.y);
+    if (!map->keeps_matter || u >= map->width || v >= map->height)
+        return;
+    snow_plane_matter *matter = (snow_plane_matter *)line_of(map, u, v);
+    _Atomic uint16_t *row = &(obstacle ? matter->obstacle : matter->filled)[v % 16];
+    SNOW_MAP_PUT(*row, (uint16_t)(SNOW_MAP_GET(*row) | 1u << u % 16));
 }

@@ -6,16 +6,20 @@
    the site holds no special site; 0 says that the site itself is special. It
    knows, from near to far:
    - for each site whether the nearest special site is at distance 0, 1, 2 or
-     more: two bits a site, a word for a block of 4 x 4 sites, a cache line (a
-     "line") for 16 x 16 sites near which there is one;
-   - for each block how many blocks away the nearest one with a special site is,
-     up to 8: a byte a block, in "pages" of 64 x 64 sites near which there is one;
-   - the same for patches, the places of lines, up to 15;
-   - the same for tiles, the places of pages, up to 15, where there is no page;
+     more: two bits a site, a word for 16 sites of a row, a cache line (a "line")
+     for 16 x 16 sites near which there is one;
+   - for each block of 4 x 4 sites how many blocks away the nearest one with a
+     special site is, up to 8, and beyond that how many patches of 16 x 16 sites
+     its patch is away, up to 6: a byte a block, in "pages" of 32 x 32 sites near
+     which there is one;
+   - the same for tiles, the places of pages, up to 15;
    - the same for squares of 16 x 16 tiles, up to 15.
    Where blocks of b sites are d blocks apart, (d - 1) b sites are free between
-   their nearest sites. The map is a function of the set of special sites: the
-   order in which they came does not show. */
+   their nearest sites. Bytes hold the class that follows. Where there is no page
+   of a tile's own one stands that says the same everywhere, so that each
+   question takes the same way: which branch it would take nobody could foretell.
+   The map is a function of the set of special sites: the order in which they came
+   does not show. */
 #ifndef SNOW_AGGREGATE_PLANE_MAP_H
 #define SNOW_AGGREGATE_PLANE_MAP_H
 
@@ -24,14 +28,15 @@
 #include "aggregate/pool.h"
 
 enum {
-    SNOW_PLANE_NEAR = 8,      /* the greatest distance of blocks that is told apart */
-    SNOW_PLANE_TILES_FROM = 5 /* the least distance of tiles that says more than that of patches */
+    SNOW_PLANE_NEAR = 8,    /* the greatest distance of blocks that is told apart */
+    SNOW_PLANE_PATCHES = 6, /* of patches */
+    SNOW_PLANE_FAR = 15,    /* of tiles, of squares */
+    SNOW_PLANE_MARGIN = 128 /* of sites that are not special, on sides where the map may be widened */
 };
 
-/* Three less the distance of each site: the lower bits of the sites of a block
-   in the lower half of its word, the upper bits in the upper half. */
+/* Three less the distance of each site, two bits each. */
 typedef struct snow_plane_line {
-    _Atomic uint32_t word[16];
+    _Atomic uint32_t row[16];
 } snow_plane_line;
 
 /* The same where it matters which sites are filled and which are obstacles: a bit a site. */
@@ -42,11 +47,13 @@ typedef struct snow_plane_matter {
 } snow_plane_matter;
 
 typedef struct snow_plane_page {
-    _Atomic uint8_t near[256];
-    snow_plane_line *_Atomic line[16]; /* never NULL: where nothing is near they share one */
+    _Atomic uint8_t near[64];         /* 0, 1: so many blocks away; else the class */
+    snow_plane_line *_Atomic line[4]; /* never NULL: where nothing is near they share one */
+    uint64_t changed;                 /* what this page says: last, by the landing of this number */
+    uint8_t distance;                 /* of the tiles that this page stands for; 0: it is one tile's own */
 } snow_plane_page;
 
-/* The sites that the map covers: whole squares of tiles. */
+/* The sites that the map covers: whole squares of tiles; x and y are multiples of 32. */
 typedef struct snow_plane_box {
     int32_t x, y;
     uint32_t columns, rows;
@@ -54,20 +61,22 @@ typedef struct snow_plane_box {
 
 typedef struct snow_plane_map {
     snow_plane_box box;
-    _Atomic uintptr_t *tile; /* up to 16: the distance; else the address of a page */
-    _Atomic uint8_t *patch;
-    _Atomic uint8_t *square;
-    uint8_t patch_class[17];
-    uint8_t tile_class[17];
-    uint8_t square_class[17];
     uint32_t width, height; /* of the box, sites */
+    snow_plane_page *_Atomic *tile;
+    snow_plane_page *square; /* for tiles that are far from all special ones */
+    uint8_t *square_distance;
+    snow_plane_page far[SNOW_PLANE_FAR + 1]; /* for tiles at this distance */
+    uint8_t near_class[SNOW_PLANE_NEAR + 2];
+    uint8_t square_class[SNOW_PLANE_FAR + 2];
     snow_pool pages;
     snow_pool lines; /* with matter, if that is kept */
     bool keeps_matter;
     snow_aggregate_lattice lattice;
-    uint32_t print[16][9];     /* for each place in a block: what a filled site does to the words round it */
-    uint8_t apart[31][31 + 32]; /* distances up to 15, from the middle; at both sides 16 columns of more */
-    uint64_t far_changes;      /* of what is known of patches, tiles and squares, so far */
+    uint32_t print[16][7][3];  /* for each place in a row: what a filled site does to the rows round it */
+    uint8_t near[17][17 + 16]; /* classes round a block, from the middle; at both sides 8 columns more */
+    uint8_t patch[13][13 * 4 + 16]; /* the same round a patch, four times each */
+    uint64_t landing;          /* for pages that change now */
+    snow_plane_page outside;   /* stands for all places where the map ends */
 } snow_plane_map;
 
 snow_status snow_plane_map_start(snow_plane_map *map, snow_heap *heap, const snow_exits *exits, bool keeps_matter,
@@ -81,33 +90,33 @@ snow_status snow_plane_map_widen(snow_plane_map *map, snow_heap *heap, snow_plan
 snow_status snow_plane_map_reserve(snow_plane_map *map, snow_heap *heap);
 void snow_plane_map_add(snow_plane_map *map, int32_t x, int32_t y, bool obstacle);
 
-/* Where the nearest special site is too far for a page. */
-static inline int snow_plane_map_look_far(const snow_plane_map *map, uintptr_t entry, uint32_t u, uint32_t v)
+/* Where nothing is near, and nothing is. */
+extern snow_plane_matter snow_plane_nothing;
+
+static inline const snow_plane_page *snow_plane_map_page(const snow_plane_map *map, uint32_t u, uint32_t v)
 {
-    if (entry < SNOW_PLANE_TILES_FROM || entry > 16)
-        return map->patch_class[SNOW_MAP_GET(map->patch[(size_t)(v / 16) * (map->box.columns * 4) + u / 16])];
-    if (entry < 16)
-        return map->tile_class[entry];
-    return map->square_class[SNOW_MAP_GET(map->square[(size_t)(v / 1024) * (map->box.columns / 16) + u / 1024])];
+    return SNOW_MAP_GET_ADDRESS(map->tile[(size_t)(v / 32) * map->box.columns + u / 32]);
 }
 
-/* 0: special; else a class; SNOW_MAP_BEYOND. */
-static inline int snow_plane_map_look(const snow_plane_map *map, int32_t x, int32_t y)
+/* The page that tells about a site. */
+static inline const snow_plane_page *snow_plane_map_find(const snow_plane_map *map, int32_t x, int32_t y)
 {
     uint32_t u = (uint32_t)x - (uint32_t)map->box.x;
     uint32_t v = (uint32_t)y - (uint32_t)map->box.y;
-    if (u >= map->width || v >= map->height)
-        return SNOW_MAP_BEYOND;
-    uintptr_t entry = SNOW_MAP_GET_ADDRESS(map->tile[(size_t)(v / 64) * map->box.columns + u / 64]);
-    if (entry <= 16)
-        return snow_plane_map_look_far(map, entry, u, v);
-    const snow_plane_page *page = (const snow_plane_page *)entry;
-    int near = SNOW_MAP_GET(page->near[v / 4 % 16 * 16 + u / 4 % 16]);
-    if (near >= 2)
-        return near <= SNOW_PLANE_NEAR ? near + 2 : snow_plane_map_look_far(map, entry, u, v);
-    const snow_plane_line *line = SNOW_MAP_GET_ADDRESS(page->line[v / 16 % 4 * 4 + u / 16 % 4]);
-    uint32_t word = SNOW_MAP_GET(line->word[v / 4 % 4 * 4 + u / 4 % 4]) >> (v % 4 * 4 + u % 4);
-    return 3 - (int)((word >> 15 & 2) | (word & 1));
+    bool inside = (u < map->width) & (v < map->height);
+    const snow_plane_page *page = snow_plane_map_page(map, inside ? u : 0, inside ? v : 0);
+    return inside ? page : &map->outside;
+}
+
+/* 0: special; else a class; SNOW_MAP_BEYOND. */
+static inline snow_map_answer snow_plane_page_look(const snow_plane_page *page, int32_t x, int32_t y)
+{
+    uint32_t u = (uint32_t)x; /* boxes begin at multiples of 32 */
+    uint32_t v = (uint32_t)y;
+    uint32_t near = SNOW_MAP_GET(page->near[v / 4 % 8 * 8 + u / 4 % 8]);
+    const snow_plane_line *line = SNOW_MAP_GET_ADDRESS(page->line[v / 16 % 2 * 2 + u / 16 % 2]);
+    uint32_t exact = ~SNOW_MAP_GET(line->row[v % 16]) >> (u % 16 * 2) & 3;
+    return (snow_map_answer){near > exact ? near : exact, &page->changed}; /* neither is more than what is free */
 }
 
 /* What is on a site; only where matter is kept. */
@@ -117,15 +126,11 @@ static inline int snow_plane_map_matter(const snow_plane_map *map, int32_t x, in
     uint32_t v = (uint32_t)y - (uint32_t)map->box.y;
     if (u >= map->width || v >= map->height)
         return 0;
-    uintptr_t entry = SNOW_MAP_GET_ADDRESS(map->tile[(size_t)(v / 64) * map->box.columns + u / 64]);
-    if (entry <= 16)
-        return 0;
-    const snow_plane_page *page = (const snow_plane_page *)entry;
-    const snow_plane_line *line = SNOW_MAP_GET_ADDRESS(page->line[v / 16 % 4 * 4 + u / 16 % 4]);
+    const snow_plane_page *page = snow_plane_map_page(map, u, v);
+    const snow_plane_line *line = SNOW_MAP_GET_ADDRESS(page->line[v / 16 % 2 * 2 + u / 16 % 2]);
     const snow_plane_matter *matter = (const snow_plane_matter *)line;
-    uint32_t block = v / 4 % 4 * 4 + u / 4 % 4;
-    uint32_t bit = v % 4 * 4 + u % 4;
-    return (SNOW_MAP_GET(matter->filled[block]) >> bit & 1) | (SNOW_MAP_GET(matter->obstacle[block]) >> bit & 1) << 1;
+    uint32_t bit = u % 16;
+    return (SNOW_MAP_GET(matter->filled[v % 16]) >> bit & 1) | (SNOW_MAP_GET(matter->obstacle[v % 16]) >> bit & 1) << 1;
 }
 
 #endif

@@ -3,10 +3,11 @@
 #include <string.h>
 
 enum {
-    NEAR_REACH = 4, /* blocks; beyond: 5 */
-    TILE_REACH = 5, /* tiles, and cubes of tiles */
-    BEYOND = 6
+    NEAR_REACH = SNOW_SPACE_NEAR,
+    FAR_REACH = SNOW_SPACE_FAR /* tiles, and cubes of tiles */
 };
+
+snow_space_matter snow_space_nothing;
 
 static int64_t magnitude(int64_t x)
 {
@@ -66,37 +67,98 @@ static size_t tiles_of(snow_space_box box)
     return (size_t)box.columns * box.rows * box.layers;
 }
 
+static size_t cubes_of(snow_space_box box)
+{
+    return tiles_of(box) / 64;
+}
+
+static size_t tile_index(const snow_space_box *box, int64_t column, int64_t row, int64_t layer)
+{
+    return ((size_t)layer * box->rows + (size_t)row) * box->columns + (size_t)column;
+}
+
+/* Of the cube with a tile. */
+static size_t cube_index(const snow_space_box *box, int64_t column, int64_t row, int64_t layer)
+{
+    return ((size_t)(layer / 4) * (box->rows / 4) + (size_t)(row / 4)) * (box->columns / 4) + (size_t)(column / 4);
+}
+
+static void start_page(snow_space_page *page, uint8_t class, uint64_t landing)
+{
+    page->changed = landing;
+    for (int i = 0; i < 64; i++)
+        atomic_init(&page->near[i], class);
+    for (int i = 0; i < 8; i++)
+        atomic_init(&page->line[i], &snow_space_nothing.line);
+}
+
 static snow_status cover(snow_space_map *map, snow_heap *heap, snow_space_box box)
 {
-    _Atomic uintptr_t *tile = snow_heap_get_raw(heap, tiles_of(box), sizeof *tile);
-    _Atomic uint8_t *cube = snow_heap_get_raw(heap, tiles_of(box) / 64, 1);
-    if (tile == NULL || cube == NULL) {
+    snow_space_page *_Atomic *tile = snow_heap_get_raw(heap, tiles_of(box), sizeof *tile);
+    snow_space_page *cube = snow_heap_get_raw(heap, cubes_of(box), sizeof *cube);
+    uint8_t *cube_distance = snow_heap_get_raw(heap, cubes_of(box), 1);
+    if (tile == NULL || cube == NULL || cube_distance == NULL) {
+        snow_heap_put(heap, cube_distance);
         snow_heap_put(heap, cube);
         snow_heap_put(heap, tile);
         return heap->refusal;
     }
-    for (size_t i = 0; i < tiles_of(box); i++)
-        atomic_init(&tile[i], BEYOND);
-    for (size_t i = 0; i < tiles_of(box) / 64; i++)
-        atomic_init(&cube[i], BEYOND);
+    memset(cube_distance, FAR_REACH + 1, cubes_of(box));
+    for (size_t i = 0; i < cubes_of(box); i++)
+        start_page(&cube[i], map->cube_class[FAR_REACH + 1], 0);
+    for (uint32_t layer = 0; layer < box.layers; layer++)
+        for (uint32_t row = 0; row < box.rows; row++)
+            for (uint32_t column = 0; column < box.columns; column++)
+                atomic_init(&tile[tile_index(&box, column, row, layer)], &cube[cube_index(&box, column, row, layer)]);
     map->box = box;
     map->tile = tile;
     map->cube = cube;
+    map->cube_distance = cube_distance;
     return SNOW_OK;
 }
 
-static void make_distances(snow_space_map *map)
+static void uncover(const snow_space_map *map, snow_heap *heap)
+{
+    snow_heap_put(heap, map->cube_distance);
+    snow_heap_put(heap, map->cube);
+    snow_heap_put(heap, map->tile);
+}
+
+/* How far the tile is that such a page stands for; 0: a page of its own. */
+static uintptr_t distance_of(const snow_space_map *map, const snow_space_page *page)
+{
+    uintptr_t far = ((uintptr_t)page - (uintptr_t)map->far) / sizeof *page;
+    uintptr_t cube = ((uintptr_t)page - (uintptr_t)map->cube) / sizeof *page;
+    return far <= FAR_REACH ? far : cube < cubes_of(map->box) ? FAR_REACH + 1 : 0;
+}
+
+static void make_near(snow_space_map *map)
 {
     for (int from = 0; from < 16; from++) {
         for (int side = 0; side < 9; side++) {
             for (int place = 0; place < 16; place++) {
                 int i = place % 4 + 4 * (side % 3 - 1) - from % 4;
                 int j = place / 4 + 4 * (side / 3 - 1) - from / 4;
-                int64_t d = apart(i, j, 0);
-                map->apart[from][side][place] = (uint8_t)at_most(d, NEAR_REACH + 1);
+                map->near_in_layer[from][side][place] = map->near[at_most(apart(i, j, 0), NEAR_REACH + 1)];
             }
         }
     }
+}
+
+static uint8_t class_of(const snow_exits *exits, int64_t free)
+{
+    return (uint8_t)snow_exits_class(exits, free + 1);
+}
+
+/* What each distance leaves free, at least. */
+static void make_classes(snow_space_map *map, const snow_exits *exits)
+{
+    for (int d = 0; d <= NEAR_REACH + 1; d++)
+        map->near[d] = d < 2 ? (uint8_t)d : class_of(exits, 4 * (d - 1));
+    for (int d = 1; d <= FAR_REACH; d++)
+        start_page(&map->far[d], class_of(exits, 16 * (d - 1)), 0);
+    for (int d = 0; d <= FAR_REACH + 1; d++)
+        map->cube_class[d] = class_of(exits, d <= 1 ? 16 * FAR_REACH : 64 * (d - 1));
 }
 
 snow_status snow_space_map_start(snow_space_map *map, snow_heap *heap, const snow_exits *exits, bool keeps_matter,
@@ -107,11 +169,9 @@ snow_status snow_space_map_start(snow_space_map *map, snow_heap *heap, const sno
         .lines = {.item = keeps_matter ? sizeof(snow_space_matter) : sizeof(snow_space_line)},
         .keeps_matter = keeps_matter,
     };
-    for (int d = 0; d <= BEYOND; d++) {
-        map->tile_class[d] = (uint8_t)snow_exits_class(exits, d <= 1 ? 4 * NEAR_REACH + 1 : 16 * (d - 1) + 1);
-        map->cube_class[d] = (uint8_t)snow_exits_class(exits, d <= 1 ? 16 * TILE_REACH + 1 : 64 * (d - 1) + 1);
-    }
-    make_distances(map);
+    start_page(&map->outside, SNOW_MAP_BEYOND, 0);
+    make_classes(map, exits);
+    make_near(map);
     map->print = snow_heap_get_raw(heap, 64, sizeof *map->print);
     snow_status status = map->print == NULL ? heap->refusal : cover(map, heap, box);
     if (status != SNOW_OK) {
@@ -129,26 +189,17 @@ void snow_space_map_end(snow_space_map *map, snow_heap *heap)
     snow_pool_end(&map->lines, heap);
     snow_pool_end(&map->pages, heap);
     snow_heap_put(heap, map->print);
-    snow_heap_put(heap, map->cube);
-    snow_heap_put(heap, map->tile);
+    uncover(map, heap);
     map->print = NULL;
+    map->cube_distance = NULL;
     map->cube = NULL;
     map->tile = NULL;
 }
 
-static _Atomic uintptr_t *tile_at(snow_space_map *map, int64_t column, int64_t row, int64_t layer)
+static snow_space_page *_Atomic *tile_at(snow_space_map *map, int64_t column, int64_t row, int64_t layer)
 {
-    return &map->tile[((size_t)layer * map->box.rows + (size_t)row) * map->box.columns + (size_t)column];
+    return &map->tile[tile_index(&map->box, column, row, layer)];
 }
-
-static _Atomic uint8_t *cube_at(snow_space_map *map, int64_t column, int64_t row, int64_t layer)
-{
-    size_t line = (size_t)layer * (map->box.rows / 4) + (size_t)row;
-    return &map->cube[line * (map->box.columns / 4) + (size_t)column];
-}
-
-/* Where nothing is near, and nothing is. */
-static snow_space_matter nothing;
 
 static bool holds_special(const snow_space_page *page)
 {
@@ -158,16 +209,14 @@ static bool holds_special(const snow_space_page *page)
 /* The page with the block (i, j, k). */
 static snow_space_page *page_with(snow_space_map *map, int64_t i, int64_t j, int64_t k)
 {
-    _Atomic uintptr_t *entry = tile_at(map, i / 4, j / 4, k / 4);
-    uintptr_t known = SNOW_MAP_GET(*entry);
-    if (known > BEYOND)
-        return (snow_space_page *)known;
-    snow_space_page *page = snow_pool_take(&map->pages);
-    for (int place = 0; place < 64; place++)
-        atomic_init(&page->near[place], NEAR_REACH + 1);
-    for (int octant = 0; octant < 8; octant++)
-        atomic_init(&page->line[octant], &nothing.line);
-    SNOW_MAP_PUT_ADDRESS(*entry, (uintptr_t)page);
+    snow_space_page *_Atomic *entry = tile_at(map, i / 4, j / 4, k / 4);
+    snow_space_page *page = SNOW_MAP_GET(*entry);
+    if (distance_of(map, page) == 0)
+        return page;
+    page->changed = map->landing;
+    page = snow_pool_take(&map->pages);
+    start_page(page, map->near[NEAR_REACH + 1], map->landing);
+    SNOW_MAP_PUT_ADDRESS(*entry, page);
     return page;
 }
 
@@ -191,22 +240,26 @@ static range range_round(int64_t i, int64_t j, int64_t k, int64_t reach, const s
                     at_most(k + reach, box->layers * parts / wholes - 1)}};
 }
 
-/* A layer of 4 x 4 blocks at a time: distances in a layer are known, and none is
+/* A layer of 4 x 4 blocks at a time: classes in a layer are known, and none is
    less than that of the layers. */
-static void lower_page(snow_space_page *page, const uint8_t *apart_in_layer, int64_t first_layer,
-                       int64_t k)
+static void lower_page(snow_space_map *map, snow_space_page *page, const uint8_t *near_in_layer, int64_t layers)
 {
+    bool lowers = false;
     for (int layer = 0; layer < 4; layer++) {
-        uint8_t least = (uint8_t)magnitude(first_layer + layer - k);
-        if (least > NEAR_REACH)
+        int64_t d = magnitude(layers + layer);
+        if (d > NEAR_REACH)
             continue;
+        uint8_t least = map->near[d];
         _Atomic uint8_t *near = page->near + 16 * layer;
         for (int place = 0; place < 16; place++) {
-            uint8_t d = apart_in_layer[place] > least ? apart_in_layer[place] : least;
+            uint8_t bound = near_in_layer[place] > least ? near_in_layer[place] : least;
             uint8_t known = SNOW_MAP_GET(near[place]);
-            SNOW_MAP_PUT(near[place], known < d ? known : d);
+            lowers |= bound < known;
+            SNOW_MAP_PUT(near[place], known < bound ? known : bound);
         }
     }
+    if (lowers)
+        page->changed = map->landing;
 }
 
 /* The block (i, j, k) has got its first special site. */
@@ -217,7 +270,8 @@ static void spread_near(snow_space_map *map, int64_t i, int64_t j, int64_t k)
         for (int64_t y = tiles.first[1]; y <= tiles.last[1]; y++) {
             for (int64_t x = tiles.first[0]; x <= tiles.last[0]; x++) {
                 int64_t side = (y - j / 4 + 1) * 3 + x - i / 4 + 1;
-                lower_page(page_with(map, 4 * x, 4 * y, 4 * z), map->apart[j % 4 * 4 + i % 4][side], 4 * z, k);
+                snow_space_page *page = page_with(map, 4 * x, 4 * y, 4 * z);
+                lower_page(map, page, map->near_in_layer[j % 4 * 4 + i % 4][side], 4 * z - k);
             }
         }
     }
@@ -225,12 +279,18 @@ static void spread_near(snow_space_map *map, int64_t i, int64_t j, int64_t k)
 
 static void spread_cube(snow_space_map *map, int64_t i, int64_t j, int64_t k)
 {
-    range all = range_round(i, j, k, TILE_REACH, &map->box, 1, 4);
+    range all = range_round(i, j, k, FAR_REACH, &map->box, 1, 4);
     for (int64_t z = all.first[2]; z <= all.last[2]; z++) {
         for (int64_t y = all.first[1]; y <= all.last[1]; y++) {
             for (int64_t x = all.first[0]; x <= all.last[0]; x++) {
-                _Atomic uint8_t *known = cube_at(map, x, y, z);
-                SNOW_MAP_PUT(*known, (uint8_t)at_most(SNOW_MAP_GET(*known), apart(x - i, y - j, z - k)));
+                int64_t d = apart(x - i, y - j, z - k);
+                size_t index = cube_index(&map->box, 4 * x, 4 * y, 4 * z);
+                if (d >= map->cube_distance[index])
+                    continue;
+                map->cube_distance[index] = (uint8_t)d;
+                for (int place = 0; place < 64; place++)
+                    SNOW_MAP_PUT(map->cube[index].near[place], map->cube_class[d]);
+                map->cube[index].changed = map->landing;
             }
         }
     }
@@ -239,20 +299,21 @@ static void spread_cube(snow_space_map *map, int64_t i, int64_t j, int64_t k)
 /* The tile (i, j, k) has got its first special site. */
 static void spread_tile(snow_space_map *map, int64_t i, int64_t j, int64_t k)
 {
-    range all = range_round(i, j, k, TILE_REACH, &map->box, 1, 1);
+    range all = range_round(i, j, k, FAR_REACH, &map->box, 1, 1);
     for (int64_t z = all.first[2]; z <= all.last[2]; z++) {
         for (int64_t y = all.first[1]; y <= all.last[1]; y++) {
             for (int64_t x = all.first[0]; x <= all.last[0]; x++) {
-                _Atomic uintptr_t *entry = tile_at(map, x, y, z);
-                uintptr_t known = SNOW_MAP_GET(*entry);
+                snow_space_page *_Atomic *entry = tile_at(map, x, y, z);
+                snow_space_page *page = SNOW_MAP_GET(*entry);
                 uintptr_t d = (uintptr_t)apart(x - i, y - j, z - k);
-                if (known <= BEYOND && d < known)
-                    SNOW_MAP_PUT(*entry, d);
+                if (d >= distance_of(map, page))
+                    continue;
+                page->changed = map->landing;
+                SNOW_MAP_PUT_ADDRESS(*entry, &map->far[d]);
             }
         }
     }
-    map->far_changes++;
-    if (SNOW_MAP_GET(*cube_at(map, i / 4, j / 4, k / 4)) != 0)
+    if (map->cube_distance[cube_index(&map->box, i, j, k)] != 0)
         spread_cube(map, i / 4, j / 4, k / 4);
 }
 
@@ -262,8 +323,8 @@ static void spread_all_tiles(snow_space_map *map)
     for (int64_t z = 0; z < map->box.layers; z++) {
         for (int64_t y = 0; y < map->box.rows; y++) {
             for (int64_t x = 0; x < map->box.columns; x++) {
-                uintptr_t entry = SNOW_MAP_GET(*tile_at(map, x, y, z));
-                if (entry > BEYOND && holds_special((const snow_space_page *)entry))
+                const snow_space_page *page = SNOW_MAP_GET(*tile_at(map, x, y, z));
+                if (distance_of(map, page) == 0 && holds_special(page))
                     spread_tile(map, x, y, z);
             }
         }
@@ -282,15 +343,14 @@ snow_status snow_space_map_widen(snow_space_map *map, snow_heap *heap, snow_spac
     for (int64_t z = 0; z < old.box.layers; z++) {
         for (int64_t y = 0; y < old.box.rows; y++) {
             for (int64_t x = 0; x < old.box.columns; x++) {
-                uintptr_t entry = SNOW_MAP_GET(*tile_at(&old, x, y, z));
-                if (entry > BEYOND)
-                    SNOW_MAP_PUT(*tile_at(map, x + shift_x, y + shift_y, z + shift_z), entry);
+                snow_space_page *page = SNOW_MAP_GET(*tile_at(&old, x, y, z));
+                if (distance_of(&old, page) == 0)
+                    SNOW_MAP_PUT(*tile_at(map, x + shift_x, y + shift_y, z + shift_z), page);
             }
         }
     }
+    uncover(&old, heap);
     spread_all_tiles(map);
-    snow_heap_put(heap, old.cube);
-    snow_heap_put(heap, old.tile);
     return SNOW_OK;
 }
 
@@ -317,7 +377,7 @@ static snow_space_line *line_with(snow_space_map *map, int64_t i, int64_t j, int
     snow_space_page *page = page_with(map, i, j, k);
     uint32_t octant = snow_space_octant((uint32_t)i / 2, (uint32_t)j / 2, (uint32_t)k / 2);
     snow_space_line *line = SNOW_MAP_GET(page->line[octant]);
-    if (line == &nothing.line) {
+    if (line == &snow_space_nothing.line) {
         line = snow_pool_take(&map->lines);
         SNOW_MAP_PUT_ADDRESS(page->line[octant], line);
     }
@@ -333,6 +393,7 @@ static void add_print(snow_space_map *map, int64_t i, int64_t j, int64_t k, snow
         add_special(map, i, j, k);
     uint32_t octant = snow_space_octant((uint32_t)i, (uint32_t)j, (uint32_t)k);
     snow_space_shared_word *word = &line_with(map, i, j, k)->word[octant];
+    page_with(map, i, j, k)->changed = map->landing;
     for (int half = 0; half < 2; half++) {
         snow_space_word known = {SNOW_MAP_GET(word->upper[half]), SNOW_MAP_GET(word->lower[half])};
         known = greater(known, (snow_space_word){print.upper >> 32 * half, print.lower >> 32 * half});

@@ -9,6 +9,12 @@
 #include "aggregate/matter.h"
 #include "aggregate/pool.h"
 
+enum {
+    SNOW_SPACE_NEAR = 4,   /* the greatest distance of blocks that is told apart */
+    SNOW_SPACE_FAR = 5,    /* of tiles, of cubes */
+    SNOW_SPACE_MARGIN = 24 /* of sites that are not special, on sides where the map may be widened */
+};
+
 /* Upper and lower bits of 3 − distance, for the sites of a block. */
 typedef struct snow_space_word {
     uint64_t upper;
@@ -32,11 +38,12 @@ typedef struct snow_space_matter {
 } snow_space_matter;
 
 typedef struct snow_space_page {
-    _Atomic uint8_t near[64];
+    _Atomic uint8_t near[64];         /* 0, 1: so many blocks away; else the class */
     snow_space_line *_Atomic line[8]; /* never NULL: where nothing is near they share one */
+    uint64_t changed;                 /* what this page says: last, by the landing of this number */
 } snow_space_page;
 
-/* The sites that the map covers: whole cubes of tiles. */
+/* The sites that the map covers: whole cubes of tiles; x, y and z are multiples of 16. */
 typedef struct snow_space_box {
     int32_t x, y, z;
     uint32_t columns, rows, layers; /* tiles */
@@ -44,15 +51,18 @@ typedef struct snow_space_box {
 
 typedef struct snow_space_map {
     snow_space_box box;
-    _Atomic uintptr_t *tile; /* up to 6: the distance; else the address of a page */
-    _Atomic uint8_t *cube;
-    uint8_t tile_class[7];
-    uint8_t cube_class[7];
+    snow_space_page *_Atomic *tile;
+    snow_space_page *cube; /* for tiles that are far from all special ones */
+    uint8_t *cube_distance;
+    snow_space_page far[SNOW_SPACE_FAR + 1]; /* for tiles at this distance */
+    uint8_t cube_class[SNOW_SPACE_FAR + 2];
     snow_pool pages;
     snow_pool lines; /* with matter, if that is kept */
     bool keeps_matter;
-    uint8_t apart[16][9][16]; /* in a layer: from a place in a page to those of the pages round it */
-    uint64_t far_changes;     /* of what is known of tiles and cubes, so far */
+    uint8_t near[SNOW_SPACE_NEAR + 2]; /* the class at each distance of blocks */
+    uint8_t near_in_layer[16][9][16];  /* from a place in a page to those of the pages round it */
+    uint64_t landing;                  /* for pages that change now */
+    snow_space_page outside;           /* stands for all places where the map ends */
     snow_space_word (*print)[27]; /* for each place in a block: what a filled site does to the words round it */
 } snow_space_map;
 
@@ -67,7 +77,7 @@ snow_status snow_space_map_widen(snow_space_map *map, snow_heap *heap, snow_spac
 snow_status snow_space_map_reserve(snow_space_map *map, snow_heap *heap);
 void snow_space_map_add(snow_space_map *map, int32_t x, int32_t y, int32_t z, bool obstacle);
 
-static inline uintptr_t snow_space_map_tile(const snow_space_map *map, uint32_t column, uint32_t row, uint32_t layer)
+static inline const snow_space_page *snow_space_map_page(const snow_space_map *map, uint32_t column, uint32_t row, uint32_t layer)
 {
     return SNOW_MAP_GET_ADDRESS(map->tile[((size_t)layer * map->box.rows + row) * map->box.columns + column]);
 }
@@ -88,30 +98,36 @@ static inline uint32_t snow_space_place(uint32_t x, uint32_t y, uint32_t z)
     return (z & 3) << 4 | (y & 3) << 2 | (x & 3);
 }
 
-/* 0: special; else a class; SNOW_MAP_BEYOND. */
-static inline int snow_space_map_look(const snow_space_map *map, int32_t x, int32_t y, int32_t z)
+/* Where nothing is near, and nothing is. */
+extern snow_space_matter snow_space_nothing;
+
+/* The page that tells about a site. */
+static inline const snow_space_page *snow_space_map_find(const snow_space_map *map, int32_t x, int32_t y, int32_t z)
 {
-    uint32_t u = (uint32_t)x - (uint32_t)map->box.x;
-    uint32_t v = (uint32_t)y - (uint32_t)map->box.y;
-    uint32_t w = (uint32_t)z - (uint32_t)map->box.z;
-    if (!snow_space_map_has(map, u / 16, v / 16, w / 16))
-        return SNOW_MAP_BEYOND;
-    uintptr_t entry = snow_space_map_tile(map, u / 16, v / 16, w / 16);
-    if (entry < 6)
-        return map->tile_class[entry];
-    if (entry == 6) {
-        size_t row = (size_t)(w / 64) * (map->box.rows / 4) + v / 64;
-        return map->cube_class[SNOW_MAP_GET(map->cube[row * (map->box.columns / 4) + u / 64])];
-    }
-    const snow_space_page *page = (const snow_space_page *)entry;
-    int near = SNOW_MAP_GET(page->near[snow_space_place(u / 4, v / 4, w / 4)]);
+    uint32_t u = ((uint32_t)x - (uint32_t)map->box.x) / 16;
+    uint32_t v = ((uint32_t)y - (uint32_t)map->box.y) / 16;
+    uint32_t w = ((uint32_t)z - (uint32_t)map->box.z) / 16;
+    bool inside = (u < map->box.columns) & (v < map->box.rows) & (w < map->box.layers);
+    const snow_space_page *page = snow_space_map_page(map, inside ? u : 0, inside ? v : 0, inside ? w : 0);
+    return inside ? page : &map->outside;
+}
+
+/* 0: special; else a class; SNOW_MAP_BEYOND. */
+static inline snow_map_answer snow_space_page_look(const snow_space_page *page, int32_t x, int32_t y, int32_t z)
+{
+    uint32_t u = (uint32_t)x; /* boxes begin at multiples of 16 */
+    uint32_t v = (uint32_t)y;
+    uint32_t w = (uint32_t)z;
+    uint32_t near = SNOW_MAP_GET(page->near[snow_space_place(u / 4, v / 4, w / 4)]);
     if (near >= 2)
-        return near + 2;
+        return (snow_map_answer){near, &page->changed};
     const snow_space_line *line = SNOW_MAP_GET_ADDRESS(page->line[snow_space_octant(u / 8, v / 8, w / 8)]);
     const snow_space_shared_word *word = &line->word[snow_space_octant(u / 4, v / 4, w / 4)];
     uint32_t half = w / 2 % 2;
     uint32_t bit = snow_space_place(u, v, w) % 32;
-    return 3 - (int)((SNOW_MAP_GET(word->upper[half]) >> bit & 1) << 1 | (SNOW_MAP_GET(word->lower[half]) >> bit & 1));
+    uint32_t upper = SNOW_MAP_GET(word->upper[half]) >> bit & 1;
+    uint32_t lower = SNOW_MAP_GET(word->lower[half]) >> bit & 1;
+    return (snow_map_answer){3 - 2 * upper - lower, &page->changed};
 }
 
 /* What is on a site; only where matter is kept. */
@@ -122,10 +138,7 @@ static inline int snow_space_map_matter(const snow_space_map *map, int32_t x, in
     uint32_t w = (uint32_t)z - (uint32_t)map->box.z;
     if (!snow_space_map_has(map, u / 16, v / 16, w / 16))
         return 0;
-    uintptr_t entry = snow_space_map_tile(map, u / 16, v / 16, w / 16);
-    if (entry <= 6)
-        return 0;
-    const snow_space_page *page = (const snow_space_page *)entry;
+    const snow_space_page *page = snow_space_map_page(map, u / 16, v / 16, w / 16);
     const snow_space_line *line = SNOW_MAP_GET_ADDRESS(page->line[snow_space_octant(u / 8, v / 8, w / 8)]);
     const snow_space_matter *matter = (const snow_space_matter *)line;
     uint32_t block = snow_space_octant(u / 4, v / 4, w / 4);

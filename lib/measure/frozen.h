@@ -6,9 +6,12 @@
 
 enum { SNOW_FROZEN_SLICE = 256 };
 
-/* Whether the cells can be gone through; OK or TOO_LARGE, with the rectangle that holds them. */
+/* Whether the cells can be read and gone through, with the rectangle that holds them. */
 static inline snow_status snow_frozen_rect(const snow_grid *grid, snow_rect *rect)
 {
+    snow_status status = grid->operations->can_read(grid, SNOW_FIELD_FROZEN);
+    if (status != SNOW_OK)
+        return status;
     if (!snow_domain_reaches(&grid->census.hexagon))
         return SNOW_ERROR_TOO_LARGE;
     *rect = snow_domain_rect(&grid->census.hexagon);

@@ -21,6 +21,11 @@ static size_t first_holding(const double *radii, size_t count, double square)
     return low;
 }
 
+static double square_of(const snow_grid *grid, int64_t q, int64_t r)
+{
+    return grid->squares ? (double)(q * q + r * r) : (double)snow_hexagon_square(q, r);
+}
+
 static void add_row(const snow_grid *grid, const snow_rect *rect, int64_t r, const double *radii, size_t count,
                     uint64_t *masses)
 {
@@ -31,7 +36,7 @@ static void add_row(const snow_grid *grid, const snow_rect *rect, int64_t r, con
         for (size_t i = 0; i < cells; i++) {
             if (frozen[i] == 0)
                 continue;
-            size_t ring = first_holding(radii, count, (double)snow_hexagon_square(q + (int64_t)i, r));
+            size_t ring = first_holding(radii, count, square_of(grid, q + (int64_t)i, r));
             if (ring < count)
                 masses[ring]++;
         }
@@ -113,11 +118,14 @@ static SNOW_APART snow_status find_dimension(const snow_grid *grid, double *dime
     uint64_t masses[MOST_RADII];
     double tip = snow_census_tip(&grid->census);
     double origin;
+    snow_status status = grid->operations->can_read(grid, SNOW_FIELD_FROZEN);
+    if (status != SNOW_OK)
+        return status;
     grid->operations->read(grid, SNOW_FIELD_FROZEN, 0, 0, 1, &origin);
     if (tip < 32 || origin == 0)
         return SNOW_ERROR_RANGE;
     size_t count = choose_radii(tip, radii);
-    snow_status status = count_masses(grid, radii, count, masses);
+    status = count_masses(grid, radii, count, masses);
     if (status == SNOW_OK)
         *dimension = slope(radii, masses, count);
     return status;

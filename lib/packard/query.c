@@ -1,6 +1,8 @@
 /* The queries that only this model has. */
 #include "packard/model.h"
 
+#include <string.h>
+
 snow_status snow_packard_rule_of(const snow_grid *grid, uint32_t *rule)
 {
     snow_status status = packard_check(grid);
@@ -38,7 +40,12 @@ snow_status snow_packard_population(const snow_grid *grid, uint64_t *high, uint6
 static bool is_sound(int64_t first, int64_t count)
 {
     const int64_t limit = INT64_C(1) << 62;
-    return first >= -limit && first <= limit && count >= 0 && count <= limit - first;
+    return first >= -limit && count >= 0 && count <= limit && first <= limit - count;
+}
+
+static bool meet(const packard_region *a, const packard_region *b)
+{
+    return a->q < b->q + b->width && b->q < a->q + a->width && a->r < b->r + b->height && b->r < a->r + a->height;
 }
 
 /* What an engine says of cells beyond the edges of a torus does not count. */
@@ -67,7 +74,12 @@ snow_status snow_packard_copy_bits(const snow_grid *grid, int64_t q, int64_t r, 
     if (stride == 0 || height == 0)
         return SNOW_OK;
     const packard *model = packard_of(grid);
-    packard_region region = {q, r, width, height};
+    const packard_region region = {q, r, width, height};
+    const packard_region bounds = snow_packard_bounds(grid);
+    if (!meet(&region, &bounds)) { /* not every engine can look as far */
+        memset(words, 0, (size_t)height * stride * sizeof *words);
+        return SNOW_OK;
+    }
     model->engine->copy(model->cells, &region, words);
     if (!packard_is_plane(model))
         clip(grid, &region, words);

@@ -237,7 +237,7 @@ static snow_status load_row(snow_source *source, snow_grid *grid, const packard_
 /* A crystal can have come so far from 32-bit seeds in tiles, and no farther. */
 static bool is_sound_place(int64_t first, uint64_t count)
 {
-    const int64_t limit = INT64_C(1) << 40;
+    const int64_t limit = INT64_C(1) << 36;
     return first > -limit && first < limit && count < (uint64_t)limit;
 }
 
@@ -274,16 +274,23 @@ static bool is_dear_domain(const snow_source *source, const snow_packard_params 
     return is_dear(source, params->width, params->height);
 }
 
+/* In place of an engine that has no cells yet. */
+static void use_engine(snow_grid *grid, const packard_engine *engine, void *cells)
+{
+    packard *model = packard_of(grid);
+    model->engine->destroy(grid, model->cells);
+    model->engine = engine;
+    model->cells = cells;
+}
+
 static snow_status use_tiles(snow_grid *grid)
 {
     packard *model = packard_of(grid);
     void *cells;
-    snow_status status = snow_packard_tiles.create(grid, false, &cells);
+    snow_status status = snow_packard_tiles.create(grid, &model->fold, &cells);
     if (status != SNOW_OK)
         return status;
-    model->engine->destroy(grid, model->cells);
-    model->engine = &snow_packard_tiles;
-    model->cells = cells;
+    use_engine(grid, &snow_packard_tiles, cells);
     model->params.engine = SNOW_PACKARD_ENGINE_TILES;
     return SNOW_OK;
 }
@@ -312,15 +319,11 @@ static snow_status load_rows(snow_source *source, snow_grid *grid)
 
 static snow_status load_tree(snow_source *source, snow_grid *grid)
 {
-    packard *model = packard_of(grid);
     void *cells;
     snow_status status = snow_packard_tree_load(grid, source, &cells);
-    if (status != SNOW_OK)
-        return status;
-    model->engine->destroy(grid, model->cells);
-    model->engine = &snow_packard_quadtree;
-    model->cells = cells;
-    return SNOW_OK;
+    if (status == SNOW_OK)
+        use_engine(grid, &snow_packard_quadtree, cells);
+    return status;
 }
 
 static snow_status load_frozen(snow_source *source, const saved_scene *scene, snow_grid *grid)

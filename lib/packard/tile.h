@@ -43,6 +43,12 @@ enum {
     TILE_UNCOUNTED = 4 /* in the list of those that changed since the last count */
 };
 
+/* How a freeze step is kept; steps later than can be kept are kept as the last that can. */
+static inline uint32_t tile_date(int64_t step)
+{
+    return step < UINT32_MAX ? (uint32_t)(step + 1) : UINT32_MAX;
+}
+
 /* What few tiles have. */
 typedef struct tile_extra {
     uint64_t allowed[SNOW_TILE_SIDE]; /* in row order */

@@ -20,9 +20,8 @@ static void surround(const tile_extra *extra, uint64_t *cells, tile_halo *halo)
 
 static void date(uint32_t *dates, uint64_t cells, int64_t step)
 {
-    uint32_t value = step < UINT32_MAX ? (uint32_t)(step + 1) : UINT32_MAX;
     for (; cells != 0; cells &= cells - 1)
-        dates[__builtin_ctzll(cells)] = value;
+        dates[__builtin_ctzll(cells)] = tile_date(step);
 }
 
 bool snow_tile_advance_slowly(const tile_pass *pass, snow_tile *tile)

@@ -1,11 +1,6 @@
 /* Cells and rows of cells, in and out. */
 #include "packard/tiles_plane.h"
 
-static uint32_t date_of(int64_t step)
-{
-    return step < UINT32_MAX ? (uint32_t)(step + 1) : UINT32_MAX;
-}
-
 /* Freezes cells of a row of a tile, and notes them in the edges that its neighbours read next. */
 static void freeze(snow_tiles *tiles, snow_tile *tile, unsigned y, uint64_t bits, int64_t step)
 {
@@ -20,7 +15,7 @@ static void freeze(snow_tiles *tiles, snow_tile *tile, unsigned y, uint64_t bits
     edges->left |= (bits & 1) << y;
     edges->right |= (bits >> (tile_columns(tile) - 1) & 1) << y;
     for (; tiles->plan.dated && bits != 0; bits &= bits - 1)
-        tile->extra->dates[y * SNOW_TILE_SIDE + (unsigned)__builtin_ctzll(bits)] = date_of(step);
+        tile->extra->dates[y * SNOW_TILE_SIDE + (unsigned)__builtin_ctzll(bits)] = tile_date(step);
 }
 
 snow_status snow_tiles_set_dated(snow_tiles *tiles, int64_t q, int64_t r, int64_t step)

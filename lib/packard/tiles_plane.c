@@ -39,12 +39,18 @@ void snow_tiles_fold(int64_t *q, int64_t *r)
     *r = least;
 }
 
+/* Where no tile can be, farther out than seeds and steps lead, all tiles are one. */
+static int32_t tile_number(int64_t first_cell)
+{
+    int64_t number = first_cell / SNOW_TILE_SIDE;
+    return number > INT32_MAX ? INT32_MAX : number < INT32_MIN ? INT32_MIN : (int32_t)number;
+}
+
 tile_place snow_tiles_place(int64_t q, int64_t r)
 {
     int64_t x = wrapped(q, SNOW_TILE_SIDE);
     int64_t y = wrapped(r, SNOW_TILE_SIDE);
-    return (tile_place){(int32_t)((q - x) / SNOW_TILE_SIDE), (int32_t)((r - y) / SNOW_TILE_SIDE), (unsigned)x,
-                        (unsigned)y};
+    return (tile_place){tile_number(q - x), tile_number(r - y), (unsigned)x, (unsigned)y};
 }
 
 tile_place snow_tiles_locate(const snow_tiles *tiles, int64_t q, int64_t r)

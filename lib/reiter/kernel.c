@@ -98,10 +98,10 @@ typedef struct band_place {
     size_t stride; /* from row to row */
 } band_place;
 
-static inline band_place place_of(const reiter_flow *flow, const reiter_segment *segment, size_t shift)
+static inline band_place place_of(const reiter_flow *flow, const reiter_segment *segment)
 {
-    const element *vapour = (const element *)flow->vapour + shift;
-    element *next = (element *)flow->next + shift;
+    const element *vapour = flow->vapour;
+    element *next = flow->next;
     return (band_place){vapour + segment->row, vapour + segment->above, vapour + segment->below, next + segment->row,
                         segment->stride};
 }
@@ -144,7 +144,7 @@ static inline bool is_full(const reiter_segment *segment)
 
 static void full_segment(const reiter_flow *flow, const reiter_segment *segment)
 {
-    const band_place band = place_of(flow, segment, 0);
+    const band_place band = place_of(flow, segment);
     constants with = constants_of(flow);
     for (size_t i = 0; i < (size_t)segment->chunks * REITER_CHUNK; i += LANES) {
         band_flow at = flow_at(&band, i, &with);
@@ -153,10 +153,10 @@ static void full_segment(const reiter_flow *flow, const reiter_segment *segment)
     }
 }
 
-/* One chunk, of which the masks name the cells; says whether anything flows. */
-static inline bool masked_chunk(const reiter_flow *flow, const reiter_segment *segment, size_t shift)
+/* The chunk of a segment of which the masks name the cells; says whether anything flows. */
+static inline bool masked_chunk(const reiter_flow *flow, const reiter_segment *segment)
 {
-    const band_place band = place_of(flow, segment, shift);
+    const band_place band = place_of(flow, segment);
     constants with = constants_of(flow);
     lanes flowing = {0};
     for (int i = 0; i < REITER_CHUNK; i += LANES) {
@@ -170,21 +170,32 @@ static inline bool masked_chunk(const reiter_flow *flow, const reiter_segment *s
     return any(flowing);
 }
 
-/* One chunk of which all cells are computed; says whether anything flows. */
-static inline bool full_chunk(const reiter_flow *flow, const reiter_segment *segment, size_t shift, bool tolerates)
+/* A chunk of which all cells are computed; says whether anything flows. */
+static inline bool full_chunk(const band_place *band, size_t shift, const constants *with, bool tolerates)
 {
-    const band_place band = place_of(flow, segment, shift);
-    constants with = constants_of(flow);
     lanes flowing = {0};
-    for (int i = 0; i < REITER_CHUNK; i += LANES) {
-        band_flow at = flow_at(&band, (size_t)i, &with);
-        for (int own = 0; own < REITER_BAND; own++) {
+    for (size_t i = shift; i < shift + REITER_CHUNK; i += LANES) {
+        band_flow at = flow_at(band, i, with);
+        for (size_t own = 0; own < REITER_BAND; own++) {
             /* A flow of nothing has no bit set. */
-            flowing |= tolerates ? is_beyond(at.flow[own], with.tolerance) : (lanes)at.flow[own];
-            store_aligned(band.next + (size_t)own * band.stride + i, at.here[own] + at.flow[own]);
+            flowing |= tolerates ? is_beyond(at.flow[own], with->tolerance) : (lanes)at.flow[own];
+            store_aligned(band->next + own * band->stride + i, at.here[own] + at.flow[own]);
         }
     }
     return any(flowing);
+}
+
+static inline void look_at_full(const reiter_flow *flow, const reiter_segment *segment, uint64_t *flowing,
+                                bool tolerates)
+{
+    const band_place band = place_of(flow, segment);
+    const constants with = constants_of(flow);
+    const size_t first = segment->bit;
+    const size_t end = first + segment->chunks;
+    for (size_t bit = first; bit < end; bit++) {
+        bool flows = full_chunk(&band, (bit - first) * REITER_CHUNK, &with, tolerates);
+        flowing[bit / 64] |= (uint64_t)flows << bit % 64;
+    }
 }
 
 static void diffuse(const reiter_flow *flow, const reiter_segment *segments, size_t count)
@@ -193,29 +204,19 @@ static void diffuse(const reiter_flow *flow, const reiter_segment *segments, siz
         if (is_full(segment))
             full_segment(flow, segment);
         else
-            masked_chunk(flow, segment, 0);
-    }
-}
-
-static inline void look_at_segment(const reiter_flow *flow, const reiter_segment *segment, uint64_t *flowing,
-                                   bool tolerates)
-{
-    bool full = is_full(segment);
-    for (size_t chunk = 0; chunk < segment->chunks; chunk++) {
-        size_t bit = segment->bit + chunk;
-        size_t shift = chunk * REITER_CHUNK;
-        if (full ? full_chunk(flow, segment, shift, tolerates) : masked_chunk(flow, segment, shift))
-            flowing[bit / 64] |= UINT64_C(1) << bit % 64;
+            masked_chunk(flow, segment);
     }
 }
 
 static void diffuse_and_look(const reiter_flow *flow, const reiter_segment *segments, size_t count, uint64_t *flowing)
 {
     for (const reiter_segment *segment = segments; segment < segments + count; segment++) {
-        if (flow->tolerance > 0)
-            look_at_segment(flow, segment, flowing, true);
+        if (!is_full(segment))
+            flowing[segment->bit / 64] |= (uint64_t)masked_chunk(flow, segment) << segment->bit % 64;
+        else if (flow->tolerance > 0)
+            look_at_full(flow, segment, flowing, true);
         else
-            look_at_segment(flow, segment, flowing, false);
+            look_at_full(flow, segment, flowing, false);
     }
 }
 

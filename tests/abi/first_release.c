@@ -60,6 +60,7 @@ typedef struct stop {
     int (*progress)(void *, const grid *, const summary *);
     void *progress_context;
     int64_t progress_steps;
+    int64_t height;
 } stop;
 
 typedef struct reiter_params {

@@ -123,12 +123,18 @@ static void query_fields(const snow_grid *grid)
     }
 }
 
+/* Some models have no such measure. */
+static bool answers(snow_status status)
+{
+    return status == SNOW_OK || status == SNOW_ERROR_UNSUPPORTED;
+}
+
 static void query_whole(const snow_grid *grid)
 {
-    double vapour, ice, defect, dimension;
+    double vapour, ice, defect = 0, dimension;
     uint64_t digest, again, boxes, frozen, masses[3];
-    REQUIRE(snow_mass(grid, &vapour, &ice) == SNOW_OK);
-    REQUIRE(snow_symmetry_defect(grid, &defect) == SNOW_OK && defect >= 0);
+    REQUIRE(answers(snow_mass(grid, &vapour, &ice)));
+    REQUIRE(answers(snow_symmetry_defect(grid, &defect)) && defect >= 0);
     REQUIRE(snow_digest(grid, &digest) == SNOW_OK && snow_digest(grid, &again) == SNOW_OK && digest == again);
     REQUIRE(snow_box_count(grid, 1, &boxes) == SNOW_OK && snow_frozen(grid, &frozen) == SNOW_OK && boxes == frozen);
     REQUIRE(snow_mass_radius(grid, (double[]){0, 2, 1e30}, 3, masses) == SNOW_OK && masses[2] == frozen);
@@ -145,7 +151,8 @@ static void query_picture(const snow_grid *grid)
     view.width = view.height = 8;
     view.samples = 1;
     view.pixel = SNOW_PIXEL_RGBA;
-    REQUIRE(snow_render(grid, &view, pixels, sizeof pixels, &size) == SNOW_OK && size == sizeof pixels);
+    snow_status status = snow_render(grid, &view, pixels, sizeof pixels, &size);
+    REQUIRE(answers(status) && (status != SNOW_OK || size == sizeof pixels));
 }
 
 void fuzz_query(const snow_grid *grid)

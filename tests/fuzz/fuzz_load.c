@@ -1,5 +1,5 @@
-/* Saved grids: any bytes. The first byte chooses the model whose envelope, with a sound checksum, is put round the rest,
-   so that the model's own checks are reached; or that the rest is taken as it is. */
+/* Saved grids: any bytes. The first byte chooses the model whose envelope, with a sound checksum, is put round the
+   rest, so that the model's own checks are reached; or that the rest is taken as it is. */
 #include "fuzz.h"
 
 #include "base/bytes.h"

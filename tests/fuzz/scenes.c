@@ -101,9 +101,75 @@ static snow_status create_packard(fuzz_input *input, const snow_options *options
     return snow_packard_create(&params, options, grid);
 }
 
+static size_t sites_of(fuzz_input *input, snow_site sites[MOST_SEEDS])
+{
+    size_t count = fuzz_below(input, MOST_SEEDS + 1);
+    for (size_t i = 0; i < count; i++)
+        sites[i] = (snow_site){fuzz_coordinate(input), fuzz_coordinate(input), fuzz_below(input, 4) == 0};
+    return count;
+}
+
+static snow_status create_aggregate(fuzz_input *input, const snow_options *options, snow_grid **grid)
+{
+    snow_aggregate_params params;
+    snow_site seeds[MOST_SEEDS], obstacles[MOST_SEEDS];
+    snow_aggregate_params_init(&params, sizeof params);
+    uint32_t set = fuzz_u32(input);
+    params.scene = (snow_aggregate_scene)choice_of(input, 11);
+    params.lattice = (snow_aggregate_lattice)choice_of(input, 5);
+    params.contact = (snow_aggregate_contact)choice_of(input, 4);
+    params.engine = (snow_aggregate_engine)choice_of(input, 3);
+    params.random_seed = fuzz_byte(input);
+    params.launch_radius = choice_of(input, 24);
+    params.end_radius = choice_of(input, 16);
+    params.width = choice_of(input, 24);
+    params.height = choice_of(input, 24);
+    params.depth = choice_of(input, 8);
+    params.wall_right = choice_of(input, 24);
+    params.wall_right_top = choice_of(input, 24);
+    params.particles = fuzz_byte(input);
+    if (set & 1)
+        params.sticking = (1 + fuzz_below(input, 100)) / 64.0; /* less takes its time */
+    if (set & 2)
+        params.hits = choice_of(input, 8);
+    if (set & 4)
+        params.record_order = choice_of(input, 2);
+    if (set & 8) {
+        params.seed_count = sites_of(input, seeds);
+        params.seeds = set & 16 ? seeds : NULL;
+    }
+    if (set & 32) {
+        params.obstacle_count = sites_of(input, obstacles);
+        params.obstacles = set & 64 ? obstacles : NULL;
+    }
+    if (set & 128)
+        params.kill_radius = fuzz_number(input);
+    if (set & 256)
+        params.periodic = choice_of(input, 2);
+    if (set & 512) {
+        params.launch_first = choice_of(input, 24);
+        params.launch_last = choice_of(input, 24);
+        params.cathode_first = choice_of(input, 24);
+        params.cathode_last = choice_of(input, 24);
+        params.interaction = fuzz_number(input);
+    }
+    if (set & 1024) {
+        params.hardness_least = choice_of(input, 8);
+        params.hardness_greatest = choice_of(input, 8);
+    }
+    if (set & 2048) {
+        params.density = fuzz_number(input) / 4;
+        params.mobility = fuzz_number(input);
+    }
+    params.struct_size = size_of(input, sizeof params);
+    if (params.struct_size > sizeof params)
+        params.struct_size = sizeof params - 1;
+    return snow_aggregate_create(&params, options, grid);
+}
+
 typedef snow_status (*create_call)(fuzz_input *input, const snow_options *options, snow_grid **grid);
 
-static const create_call creates[] = {create_reiter, create_packard};
+static const create_call creates[] = {create_reiter, create_packard, create_aggregate};
 
 size_t fuzz_models(void)
 {
@@ -169,8 +235,24 @@ static void ask_packard(fuzz_input *input, const snow_grid *grid)
         REQUIRE(snow_packard_save_rle(grid, NULL, 0, &size) == status);
 }
 
+static void ask_aggregate(const snow_grid *grid)
+{
+    uint64_t particles;
+    int64_t order;
+    double radius;
+    snow_point corners[2];
+    snow_aggregate_params params;
+    snow_aggregate_params_init(&params, sizeof params);
+    snow_status status = snow_aggregate_particles(grid, &particles);
+    REQUIRE(snow_aggregate_params_of(grid, &params) == status);
+    (void)snow_aggregate_bounds(grid, &corners[0], &corners[1]);
+    (void)snow_aggregate_order_at(grid, (snow_site){0, 0, 0}, &order);
+    (void)snow_aggregate_gyration(grid, (const uint64_t[]){1}, &radius, 1);
+}
+
 void fuzz_ask(fuzz_input *input, const snow_grid *grid)
 {
+    ask_aggregate(grid);
     snow_reiter_conditions conditions;
     snow_reiter_conditions_init(&conditions, sizeof conditions);
     (void)snow_reiter_conditions_of(grid, &conditions);

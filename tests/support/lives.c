@@ -1,5 +1,6 @@
 #include "lives.h"
 
+#include "aggregates.h"
 #include "grids.h"
 #include "packard.h"
 
@@ -96,7 +97,53 @@ static snow_status packard_torus(bool large, const snow_options *options, snow_g
     return snow_packard_create(&params, options, grid);
 }
 
+/* The number of a scene in aggregate_kind(), with an order of the particles. */
+static snow_status create_aggregate(size_t kind, bool large, const snow_options *options, snow_grid **grid)
+{
+    snow_aggregate_params params = aggregate_kind(kind);
+    params.record_order = params.scene != SNOW_AGGREGATE_SHORE && params.scene != SNOW_AGGREGATE_CLUSTER_CLUSTER &&
+                          params.scene != SNOW_AGGREGATE_OFF_LATTICE;
+    params.particles = large ? 4000 : 400;
+    return snow_aggregate_create(&params, options, grid);
+}
+
+static snow_status aggregate_jumps(bool large, const snow_options *options, snow_grid **grid)
+{
+    return create_aggregate(0, large, options, grid);
+}
+
+static snow_status aggregate_steps(bool large, const snow_options *options, snow_grid **grid)
+{
+    return create_aggregate(6, large, options, grid);
+}
+
+static snow_status aggregate_line(bool large, const snow_options *options, snow_grid **grid)
+{
+    return create_aggregate(8, large, options, grid);
+}
+
+static snow_status aggregate_shore(bool large, const snow_options *options, snow_grid **grid)
+{
+    return create_aggregate(12, large, options, grid);
+}
+
+static snow_status aggregate_clusters(bool large, const snow_options *options, snow_grid **grid)
+{
+    return create_aggregate(15, large, options, grid);
+}
+
+static snow_status aggregate_discs(bool large, const snow_options *options, snow_grid **grid)
+{
+    return create_aggregate(16, large, options, grid);
+}
+
 const test_life test_lives[] = {
+    {"aggregate, jumps", aggregate_jumps},
+    {"aggregate, steps", aggregate_steps},
+    {"aggregate, line", aggregate_line},
+    {"aggregate, shore", aggregate_shore},
+    {"aggregate, clusters", aggregate_clusters},
+    {"aggregate, discs", aggregate_discs},
     {"reiter, rows", reiter_rows},
     {"reiter, single precision", reiter_single},
     {"reiter, uneven additions", reiter_uneven},
@@ -284,6 +331,75 @@ static snow_status conditions_of(snow_grid *grid, test_answer *answer)
     return status;
 }
 
+static snow_status aggregate_gyration(snow_grid *grid, test_answer *answer)
+{
+    return snow_aggregate_gyration(grid, (const uint64_t[]){1, 2, 3}, (double *)(void *)answer, 3);
+}
+
+static snow_status aggregate_mass(snow_grid *grid, test_answer *answer)
+{
+    return snow_aggregate_mass(grid, (const double[]){0, 1, 4}, (uint64_t *)(void *)answer, 3);
+}
+
+static snow_status aggregate_profile(snow_grid *grid, test_answer *answer)
+{
+    size_t count;
+    return snow_aggregate_profile(grid, (int32_t *)(void *)answer, 4096, &count);
+}
+
+static snow_status aggregate_clusters_of(snow_grid *grid, test_answer *answer)
+{
+    size_t count;
+    return snow_aggregate_clusters(grid, (snow_aggregate_cluster *)(void *)answer, 1024, &count);
+}
+
+static snow_status aggregate_parents(snow_grid *grid, test_answer *answer)
+{
+    size_t count;
+    return snow_aggregate_parents(grid, (int64_t *)(void *)answer, 4096, &count);
+}
+
+static snow_status aggregate_order_at(snow_grid *grid, test_answer *answer)
+{
+    return snow_aggregate_order_at(grid, (snow_site){0, 0, 0}, (int64_t *)(void *)answer);
+}
+
+static snow_status aggregate_bounds(snow_grid *grid, test_answer *answer)
+{
+    snow_point *corners = (snow_point *)(void *)answer;
+    return snow_aggregate_bounds(grid, &corners[0], &corners[1]);
+}
+
+enum { MOST_CHANCES = 1024 };
+
+/* Without what stands between the members. */
+static snow_status put_chances(snow_status status, const snow_aggregate_chance *chances, size_t count,
+                               test_answer *answer)
+{
+    double *numbers = (double *)(void *)answer;
+    for (size_t i = 0; status == SNOW_OK && i < count; i++) {
+        const double row[] = {chances[i].site.x, chances[i].site.y, chances[i].probability, chances[i].error};
+        memcpy(numbers + COUNT_OF(row) * i, row, sizeof row);
+    }
+    return status;
+}
+
+static snow_status aggregate_growth(snow_grid *grid, test_answer *answer)
+{
+    static snow_aggregate_chance chances[MOST_CHANCES];
+    size_t count = 0;
+    snow_status status = snow_aggregate_growth(grid, chances, MOST_CHANCES, &count);
+    return put_chances(status, chances, count, answer);
+}
+
+static snow_status aggregate_sample(snow_grid *grid, test_answer *answer)
+{
+    static snow_aggregate_chance chances[MOST_CHANCES];
+    size_t count = 0;
+    snow_status status = snow_aggregate_sample(grid, 20, 1, chances, MOST_CHANCES, &count);
+    return put_chances(status, chances, count, answer);
+}
+
 const test_act test_acts[] = {
     {"step", step, true},
     {"run", run, true},
@@ -310,6 +426,15 @@ const test_act test_acts[] = {
     {"packard_copy_bits", copy_bits, false},
     {"packard_population", population, false},
     {"reiter_conditions_of", conditions_of, false},
+    {"aggregate_gyration", aggregate_gyration, false},
+    {"aggregate_mass", aggregate_mass, false},
+    {"aggregate_profile", aggregate_profile, false},
+    {"aggregate_clusters", aggregate_clusters_of, false},
+    {"aggregate_parents", aggregate_parents, false},
+    {"aggregate_order_at", aggregate_order_at, false},
+    {"aggregate_bounds", aggregate_bounds, false},
+    {"aggregate_growth", aggregate_growth, false},
+    {"aggregate_sample", aggregate_sample, false},
 };
 const size_t test_act_count = COUNT_OF(test_acts);
 

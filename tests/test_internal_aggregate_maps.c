@@ -1,0 +1,249 @@
+/* The maps of plane and space against distances counted site by site, and what they say about their own changes. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+
+#include <cmocka.h>
+
+#include "aggregate/plane_map.h"
+#include "aggregate/space_map.h"
+#include "base/hexagon.h"
+#include "base/random.h"
+
+enum { PLACES = 400, FILLED = 120 };
+
+static snow_heap new_heap(void)
+{
+    snow_options options;
+    snow_options_init(&options, sizeof options);
+    snow_heap heap;
+    snow_heap_start(&heap, &options);
+    return heap;
+}
+
+static int32_t draw(uint32_t *number, int32_t least, int32_t most)
+{
+    snow_random_block counter = {{(*number)++, 0, 0, 0}};
+    uint32_t bits = snow_random_draw(7, counter).word[0];
+    return least + (int32_t)(bits % (uint32_t)(most - least + 1));
+}
+
+static int64_t greater(int64_t a, int64_t b)
+{
+    return a > b ? a : b;
+}
+
+/* The radius of the largest region round 0 without this site. */
+static int64_t distance(snow_aggregate_lattice lattice, snow_site s)
+{
+    if (lattice == SNOW_AGGREGATE_HEXAGONAL)
+        return snow_hexagon_distance(s.x, s.y);
+    return greater(greater(llabs(s.x), llabs(s.y)), llabs(s.z));
+}
+
+/* To the nearest site that is filled or next to one that is. */
+static int64_t free_distance(snow_aggregate_lattice lattice, snow_site from, const snow_site *filled, int count)
+{
+    static const snow_site step[3][7] = {
+        {{0, 0, 0}, {1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}},
+        {{0, 0, 0}, {1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {1, -1, 0}, {-1, 1, 0}},
+        {{0, 0, 0}, {1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}},
+    };
+    int64_t least = INT64_MAX;
+    for (int i = 0; i < count; i++) {
+        for (int k = 0; k < 7; k++) {
+            const snow_site *s = &step[lattice - 1][k];
+            snow_site way = {filled[i].x + s->x - from.x, filled[i].y + s->y - from.y, filled[i].z + s->z - from.z};
+            int64_t d = distance(lattice, way);
+            least = d < least ? d : least;
+        }
+    }
+    return least;
+}
+
+/* One map or the other. */
+typedef struct world {
+    snow_aggregate_lattice lattice;
+    snow_heap heap;
+    snow_exits exits;
+    snow_plane_map plane;
+    snow_space_map space;
+} world;
+
+static const snow_plane_box small_plane = {-512, -512, 32, 32};
+static const snow_plane_box large_plane = {-1536, -1536, 96, 96};
+static const snow_space_box small_space = {-64, -64, -64, 8, 8, 8};
+static const snow_space_box large_space = {-192, -192, -192, 24, 24, 24};
+
+static void start(world *self, snow_aggregate_lattice lattice)
+{
+    self->lattice = lattice;
+    self->heap = new_heap();
+    assert_int_equal(SNOW_OK, snow_exits_start(&self->exits, &self->heap, lattice));
+    if (lattice == SNOW_AGGREGATE_CUBIC)
+        assert_int_equal(SNOW_OK, snow_space_map_start(&self->space, &self->heap, &self->exits, false, small_space));
+    else
+        assert_int_equal(SNOW_OK, snow_plane_map_start(&self->plane, &self->heap, &self->exits, false, small_plane));
+}
+
+static void widen(world *self)
+{
+    if (self->lattice == SNOW_AGGREGATE_CUBIC)
+        assert_int_equal(SNOW_OK, snow_space_map_widen(&self->space, &self->heap, large_space));
+    else
+        assert_int_equal(SNOW_OK, snow_plane_map_widen(&self->plane, &self->heap, large_plane));
+}
+
+static void end(world *self)
+{
+    if (self->lattice == SNOW_AGGREGATE_CUBIC)
+        snow_space_map_end(&self->space, &self->heap);
+    else
+        snow_plane_map_end(&self->plane, &self->heap);
+    snow_exits_end(&self->exits, &self->heap);
+    assert_int_equal(0, self->heap.used);
+}
+
+static void add(world *self, snow_site site, uint64_t landing)
+{
+    if (self->lattice == SNOW_AGGREGATE_CUBIC) {
+        assert_int_equal(SNOW_OK, snow_space_map_reserve(&self->space, &self->heap));
+        self->space.landing = landing;
+        snow_space_map_add(&self->space, site.x, site.y, site.z, false);
+    } else {
+        assert_int_equal(SNOW_OK, snow_plane_map_reserve(&self->plane, &self->heap));
+        self->plane.landing = landing;
+        snow_plane_map_add(&self->plane, site.x, site.y, false);
+    }
+}
+
+static snow_map_answer look(const world *self, snow_site site)
+{
+    if (self->lattice == SNOW_AGGREGATE_CUBIC)
+        return snow_space_page_look(snow_space_map_find(&self->space, site.x, site.y, site.z), site.x, site.y, site.z);
+    return snow_plane_page_look(snow_plane_map_find(&self->plane, site.x, site.y), site.x, site.y);
+}
+
+static snow_site place(const world *self, uint32_t *number, int32_t reach)
+{
+    bool in_space = self->lattice == SNOW_AGGREGATE_CUBIC;
+    int32_t x = draw(number, -reach, reach - 1);
+    int32_t y = draw(number, -reach, reach - 1);
+    return (snow_site){x, y, in_space ? draw(number, -reach, reach - 1) : 0};
+}
+
+/* Some far apart, most close to the one before; as far inside the small box as the maps ask for. */
+static void choose_filled(const world *self, snow_site *filled, uint32_t *number)
+{
+    bool in_space = self->lattice == SNOW_AGGREGATE_CUBIC;
+    for (int i = 0; i < FILLED; i++) {
+        filled[i] = place(self, number, i % 12 == 0 ? (in_space ? 16 : 340) : (in_space ? 2 : 4));
+        if (i % 12 != 0) {
+            filled[i].x += filled[i - 1].x;
+            filled[i].y += filled[i - 1].y;
+            filled[i].z += filled[i - 1].z;
+        }
+    }
+}
+
+/* Places anywhere, and close to filled sites. */
+static void choose_places(const world *self, const snow_site *filled, snow_site *places, uint32_t *number)
+{
+    for (int i = 0; i < PLACES; i++) {
+        places[i] = place(self, number, i % 2 == 0 ? (self->lattice == SNOW_AGGREGATE_CUBIC ? 64 : 512) : 12);
+        if (i % 2 != 0) {
+            const snow_site *near = &filled[draw(number, 0, FILLED - 1)];
+            places[i] = (snow_site){places[i].x + near->x, places[i].y + near->y, places[i].z + near->z};
+        }
+    }
+}
+
+static void check_answer(const world *self, snow_site site, const snow_site *filled, int count)
+{
+    uint32_t seen = look(self, site).seen;
+    int64_t free = free_distance(self->lattice, site, filled, count);
+    if (seen == SNOW_MAP_BEYOND)
+        return;
+    if (free < 3) /* sites tell so much themselves */
+        assert_int_equal(free, seen);
+    assert_true(seen < (uint32_t)self->exits.classes);
+    assert_true(seen == 0 || self->exits.table[seen].radius <= free);
+}
+
+static void regions_of_a_lattice_are_free(snow_aggregate_lattice lattice)
+{
+    world self;
+    uint32_t number = 0;
+    snow_site filled[FILLED];
+    static snow_site places[PLACES];
+    start(&self, lattice);
+    choose_filled(&self, filled, &number);
+    choose_places(&self, filled, places, &number);
+    for (int count = 1; count <= FILLED; count++) {
+        uint32_t seen[PLACES];
+        const uint64_t *changed[PLACES];
+        for (int i = 0; i < PLACES; i++) {
+            snow_map_answer answer = look(&self, places[i]);
+            seen[i] = answer.seen;
+            changed[i] = answer.changed;
+        }
+        add(&self, filled[count - 1], (uint64_t)count);
+        for (int i = 0; i < PLACES; i++) {
+            check_answer(&self, places[i], filled, count);
+            assert_true(*changed[i] == (uint64_t)count || look(&self, places[i]).seen == seen[i]);
+        }
+    }
+    end(&self);
+}
+
+static void regions_are_free(void **state)
+{
+    (void)state;
+    regions_of_a_lattice_are_free(SNOW_AGGREGATE_SQUARE);
+    regions_of_a_lattice_are_free(SNOW_AGGREGATE_HEXAGONAL);
+    regions_of_a_lattice_are_free(SNOW_AGGREGATE_CUBIC);
+}
+
+static void neither_order_nor_widening_shows_for(snow_aggregate_lattice lattice)
+{
+    world one;
+    world other;
+    uint32_t number = 0;
+    snow_site filled[FILLED];
+    static snow_site places[PLACES];
+    start(&one, lattice);
+    start(&other, lattice);
+    choose_filled(&one, filled, &number);
+    choose_places(&one, filled, places, &number);
+    widen(&one);
+    for (int i = 0; i < FILLED; i++)
+        add(&one, filled[i], 0);
+    for (int i = 0; i < FILLED; i++) {
+        add(&other, filled[FILLED - 1 - i], 0);
+        if (i == FILLED / 2)
+            widen(&other);
+    }
+    for (int i = 0; i < PLACES; i++)
+        assert_int_equal(look(&one, places[i]).seen, look(&other, places[i]).seen);
+    end(&other);
+    end(&one);
+}
+
+static void neither_order_nor_widening_shows(void **state)
+{
+    (void)state;
+    neither_order_nor_widening_shows_for(SNOW_AGGREGATE_SQUARE);
+    neither_order_nor_widening_shows_for(SNOW_AGGREGATE_HEXAGONAL);
+    neither_order_nor_widening_shows_for(SNOW_AGGREGATE_CUBIC);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(regions_are_free),
+        cmocka_unit_test(neither_order_nor_widening_shows),
+    };
+    return cmocka_run_group_tests_name("the maps of aggregation", tests, NULL, NULL);
+}
