@@ -198,9 +198,16 @@ static inline void look_at_full(const reiter_flow *flow, const reiter_segment *s
     }
 }
 
+static inline const reiter_segment *segment_at(const reiter_flow *flow, const reiter_segment *segments, size_t count,
+                                               size_t turn)
+{
+    return &segments[flow->backward ? count - 1 - turn : turn];
+}
+
 static void diffuse(const reiter_flow *flow, const reiter_segment *segments, size_t count)
 {
-    for (const reiter_segment *segment = segments; segment < segments + count; segment++) {
+    for (size_t turn = 0; turn < count; turn++) {
+        const reiter_segment *segment = segment_at(flow, segments, count, turn);
         if (is_full(segment))
             full_segment(flow, segment);
         else
@@ -210,7 +217,8 @@ static void diffuse(const reiter_flow *flow, const reiter_segment *segments, siz
 
 static void diffuse_and_look(const reiter_flow *flow, const reiter_segment *segments, size_t count, uint64_t *flowing)
 {
-    for (const reiter_segment *segment = segments; segment < segments + count; segment++) {
+    for (size_t turn = 0; turn < count; turn++) {
+        const reiter_segment *segment = segment_at(flow, segments, count, turn);
         if (!is_full(segment))
             flowing[segment->bit / 64] |= (uint64_t)masked_chunk(flow, segment) << segment->bit % 64;
         else if (flow->tolerance > 0)

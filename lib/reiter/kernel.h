@@ -32,6 +32,7 @@ typedef struct reiter_flow {
     double weight;    /* α/12 */
     double rounder;   /* adding and subtracting it rounds a flow to the quantum; doubles only */
     double tolerance; /* flows up to this count as none when a kernel looks */
+    bool backward;    /* from the last segment to the first */
 } reiter_flow;
 
 typedef struct reiter_kernel {

@@ -176,6 +176,7 @@ reiter_flow snow_rows_flow(const snow_grid *grid, int now)
         .weight = cells->single ? reiter_single_weight(model) : model->params.diffusion / 12,
         .rounder = reiter_rounder(model),
         .tolerance = stored(cells, model->params.tolerance),
+        .backward = now == 1, /* there and back: a step begins with what the one before has left in the cache */
     };
 }
 
