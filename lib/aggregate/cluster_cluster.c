@@ -39,7 +39,8 @@ static void scatter(snow_grid *grid)
     snow_stream stream = snow_stream_start(params->random_seed, SNOW_RANDOM_SCATTER, 0);
     uint32_t side = (uint32_t)self->box.side;
     for (uint32_t particle = 0; particle < self->particles;) {
-        snow_site site = {(int32_t)snow_stream_below(&stream, side), (int32_t)snow_stream_below(&stream, side), 0};
+        snow_site site = {(int32_t)snow_stream_below(&stream, side), 0, 0};
+        site.y = (int32_t)snow_stream_below(&stream, side);
         if (self->box.axes == 3)
             site.z = (int32_t)snow_stream_below(&stream, side);
         if (snow_box_has(&self->box, site))

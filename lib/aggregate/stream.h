@@ -1,5 +1,6 @@
 /* One walker's own random numbers: a Philox stream chosen by the grid's seed,
-   what it is for, and the walker's number. Nothing here needs libm. */
+   what it is for, and the walker's number. Nothing here needs libm. One draw an
+   expression: compilers may take two in any order. */
 #ifndef SNOW_AGGREGATE_STREAM_H
 #define SNOW_AGGREGATE_STREAM_H
 

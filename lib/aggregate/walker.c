@@ -39,7 +39,9 @@ static double launch_radius(const snow_grid *grid)
 
 static double in_window(snow_stream *stream, double radius)
 {
-    double sum = snow_stream_uniform(stream) + snow_stream_uniform(stream) + snow_stream_uniform(stream);
+    double sum = 0;
+    for (int part = 0; part < 3; part++)
+        sum += snow_stream_uniform(stream);
     return radius + sum * (WINDOW / 3.0);
 }
 
@@ -124,7 +126,8 @@ static snow_site launched(const snow_grid *grid, snow_stream *stream, double *ra
     if (params->scene == SNOW_AGGREGATE_LABORATORY)
         return scaled_site(params->lattice, direction(stream, space), params->launch_radius);
     *radius = launch_radius(grid);
-    return scaled_site(params->lattice, direction(stream, space), in_window(stream, *radius));
+    double distance = in_window(stream, *radius);
+    return scaled_site(params->lattice, direction(stream, space), distance);
 }
 
 static bool walk(const snow_grid *grid, snow_stream *stream, snow_site *end)
