@@ -39,7 +39,7 @@ static uint32_t outcomes_of(snow_aggregate_lattice lattice, int32_t radius)
     return lattice == SNOW_AGGREGATE_CUBIC ? r * (r + 1) / 2 : r;
 }
 
-static snow_status law_of(snow_aggregate_lattice lattice, int32_t radius, double *chance, snow_heap *heap)
+snow_status snow_exits_law(snow_aggregate_lattice lattice, int32_t radius, double *chance, snow_heap *heap)
 {
     if (lattice == SNOW_AGGREGATE_HEXAGONAL)
         return snow_exits_hexagonal(radius, chance, heap);
@@ -92,7 +92,7 @@ static snow_status make_tables(snow_exits *exits, snow_heap *heap, catalogue law
     snow_exit *exit = exits->exit;
     for (int i = 0; i < laws.count; i++) {
         int32_t radius = laws.radius[i];
-        snow_status status = law_of(exits->lattice, radius, chance, heap);
+        snow_status status = snow_exits_law(exits->lattice, radius, chance, heap);
         if (status != SNOW_OK)
             return status;
         uint32_t columns = snow_alias_columns(outcomes_of(exits->lattice, radius));

@@ -58,5 +58,7 @@ snow_status snow_exits_hexagonal(int32_t radius, double *chance, snow_heap *heap
 /* Cubic: chance[a * (a + 1) / 2 + b], b <= a < radius, of each site with
    offsets a and b on its face. */
 snow_status snow_exits_cubic(int32_t radius, double *chance, snow_heap *heap);
+/* The one of these that is for the lattice. */
+snow_status snow_exits_law(snow_aggregate_lattice lattice, int32_t radius, double *chance, snow_heap *heap);
 
 #endif

@@ -16,16 +16,6 @@ static int32_t magnitude(int32_t x)
     return x < 0 ? -x : x;
 }
 
-static snow_status solve(snow_aggregate_lattice lattice, int32_t radius, double *chance, snow_heap *heap)
-{
-    if (lattice == SNOW_AGGREGATE_HEXAGONAL)
-        return snow_exits_hexagonal(radius, chance, heap);
-    if (lattice == SNOW_AGGREGATE_CUBIC)
-        return snow_exits_cubic(radius, chance, heap);
-    snow_exits_square(radius, chance);
-    return SNOW_OK;
-}
-
 static double chance_at(snow_aggregate_lattice lattice, const double *chance, int32_t a, int32_t b)
 {
     a = magnitude(a);
@@ -63,7 +53,7 @@ static snow_status make_law(snow_ring *self, snow_heap *heap, int level, double 
     uint32_t columns = snow_alias_columns(sites_of_side(self->lattice, radius));
     snow_ring_exit *exit = snow_heap_get(heap, columns, sizeof *exit);
     self->exit[level] = exit;
-    snow_status status = exit != NULL ? solve(self->lattice, radius, chance, heap) : heap->refusal;
+    snow_status status = exit != NULL ? snow_exits_law(self->lattice, radius, chance, heap) : heap->refusal;
     if (status != SNOW_OK)
         return status;
     uint32_t sites = list_side(self->lattice, radius, chance, alias->weight, exit);
