@@ -24,7 +24,6 @@ static snow_status create(snow_grid *grid, const packard_fold *fold, void **resu
     return status;
 }
 
-/* The cells of the region that are frozen already must be among the bits. */
 static snow_status put(void *cells, const packard_region *region, const uint64_t *words)
 {
     return snow_quadtree_put(cells, region->q, region->r, region->width, region->height, words,
@@ -35,6 +34,11 @@ static void copy(const void *cells, const packard_region *region, uint64_t *word
 {
     snow_quadtree_copy(cells, region->q, region->r, region->width, region->height, words,
                        packard_words((uint64_t)region->width));
+}
+
+static bool next(const void *cells, int64_t *q, int64_t *r)
+{
+    return snow_quadtree_next(cells, q, r);
 }
 
 static snow_status advance(void *cells, int64_t steps, int64_t *taken)
@@ -103,8 +107,10 @@ const packard_engine snow_packard_quadtree = {
     .name = SNOW_PACKARD_ENGINE_QUADTREE,
     .create = create,
     .destroy = destroy,
+    .melts = true,
     .put = put,
     .copy = copy,
+    .next = next,
     .advance = advance,
     .count = count,
     .is_still = is_still,

@@ -51,6 +51,10 @@ snow_status snow_quadtree_put(snow_quadtree *tree, int64_t q, int64_t r, int64_t
 void snow_quadtree_copy(const snow_quadtree *tree, int64_t q, int64_t r, int64_t width, int64_t height,
                         uint64_t *bits, size_t stride);
 
+/* Moves on to the first of the squares of 64 by 64 cells, from multiples of 64 on, that may hold frozen cells, row by
+   row of squares, and is not before the one with this cell. False: there is none. */
+bool snow_quadtree_next(const snow_quadtree *tree, int64_t *q, int64_t *r);
+
 bool snow_quadtree_get(const snow_quadtree *tree, int64_t q, int64_t r);
 
 /* Any number of steps, as one result for each of its binary digits. */

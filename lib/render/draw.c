@@ -11,10 +11,9 @@
  * grid's allocator may belong to one thread, but several may draw it at once.
  */
 #include "base/floating.h"
+#include "base/model.h"
 #include "render/palette.h"
 #include "render/view.h"
-
-#include <snowgrowth/grid.h>
 
 #include <math.h>
 #include <stdbool.h>
@@ -268,24 +267,33 @@ static snow_status draw_block(drawing *picture, unsigned char *pixels)
     return SNOW_OK;
 }
 
-/* The greatest number of a field on ice: everywhere else it is less. */
-static snow_status find_greatest(const snow_grid *grid, snow_field field, double *greatest)
+static snow_status find_greatest_in(const snow_grid *grid, snow_field field, const snow_rect *part, double *greatest)
 {
-    snow_rect ice;
     double numbers[STRIP];
-    snow_status status = snow_frozen_bounds(grid, &ice);
-
-    *greatest = 0.0;
-    for (int32_t r = ice.r; r < ice.r + ice.height; r++)
-        for (int32_t done = 0; done < ice.width; done += STRIP) {
-            int32_t length = ice.width - done < STRIP ? ice.width - done : STRIP;
-            snow_rect part = {ice.q + done, r, length, 1};
-            status = snow_field_copy(grid, field, &part, numbers, STRIP, NULL);
+    for (int32_t r = part->r; r < part->r + part->height; r++)
+        for (int32_t done = 0; done < part->width; done += STRIP) {
+            int32_t length = part->width - done < STRIP ? part->width - done : STRIP;
+            snow_rect cells = {part->q + done, r, length, 1};
+            snow_status status = snow_field_copy(grid, field, &cells, numbers, STRIP, NULL);
             if (status != SNOW_OK)
                 return status;
             for (int32_t i = 0; i < length; i++)
                 *greatest = fmax(*greatest, numbers[i]);
         }
+    return SNOW_OK;
+}
+
+/* The greatest number of a field on ice: everywhere else it is less. */
+static snow_status find_greatest(const snow_grid *grid, snow_field field, double *greatest)
+{
+    snow_rect ice;
+    snow_status status = snow_frozen_bounds(grid, &ice);
+    bool known = grid->operations->binary && field == SNOW_FIELD_VALUE;
+
+    *greatest = known ? 1.0 : 0.0;
+    snow_rect part = {0, 0, 0, 0};
+    while (!known && status == SNOW_OK && snow_frozen_next(grid, &part))
+        status = find_greatest_in(grid, field, &part, greatest);
     return status;
 }
 
