@@ -53,59 +53,58 @@ static bool is_receptive(const snow_grid *grid, int64_t q, int64_t r)
     return false;
 }
 
-/* Of a cell of the domain. */
-static double read_cell(const snow_grid *grid, snow_field field, int64_t q, int64_t r, bool frozen)
-{
-    const packard *model = packard_of(grid);
-    switch (field) {
-    case SNOW_FIELD_VALUE:
-    case SNOW_FIELD_FROZEN: return frozen;
-    case SNOW_FIELD_VAPOUR: return !frozen;
-    case SNOW_FIELD_RECEPTIVE: return is_receptive(grid, q, r);
-    case SNOW_FIELD_INSIDE: return snow_domain_has(&grid->domain, q, r);
-    case SNOW_FIELD_FREEZE_STEP: return frozen ? (double)model->engine->date(model->cells, q, r) : -1;
-    case SNOW_FIELD_ADDITION:
-    case SNOW_FIELD_BACKGROUND: break;
-    }
-    return 0;
-}
-
 static bool bit_at(const uint64_t *words, size_t i)
 {
     return (words[i / PACKARD_WORD] >> (i % PACKARD_WORD) & 1) != 0;
 }
 
-/* On the plane, where a bit says all. */
-static void read_bits(const uint64_t *words, size_t count, double *values)
+static void read_inside(const snow_grid *grid, const packard_region *row, double *values)
 {
-    for (size_t i = 0; i < count; i++)
-        values[i] = bit_at(words, i);
+    const snow_run_of_cells inside = snow_domain_row(&grid->domain, row->r);
+    for (int64_t i = 0; i < row->width; i++)
+        values[i] = row->q + i >= inside.first && row->q + i < inside.end;
 }
 
-static void read_cells(const snow_grid *grid, snow_field field, const packard_region *row, const uint64_t *words,
-                       double *values)
+static double read_cell(const snow_grid *grid, snow_field field, int64_t q, int64_t r, bool frozen)
 {
-    for (size_t i = 0; i < (size_t)row->width; i++) {
-        int64_t q = row->q + (int64_t)i;
-        bool outside = !packard_has_cell(grid, q, row->r);
-        double nothing = field == SNOW_FIELD_FREEZE_STEP ? -1 : 0;
-        values[i] = outside ? nothing : read_cell(grid, field, q, row->r, bit_at(words, i));
-    }
+    const packard *model = packard_of(grid);
+    if (field == SNOW_FIELD_FREEZE_STEP)
+        return frozen ? (double)model->engine->date(model->cells, q, r) : -1;
+    if (!packard_has_cell(grid, q, r))
+        return 0;
+    return field == SNOW_FIELD_VAPOUR ? !frozen : is_receptive(grid, q, r);
+}
+
+/* Nothing is frozen outside the domain, whatever an engine says of a torus. */
+static void keep_inside(const snow_grid *grid, const packard_region *row, uint64_t *words)
+{
+    for (int64_t i = 0; i < row->width; i++)
+        if (!packard_has_cell(grid, row->q + i, row->r))
+            words[i / PACKARD_WORD] &= ~(UINT64_C(1) << (i % PACKARD_WORD));
+}
+
+static void read_row(const snow_grid *grid, snow_field field, const packard_region *row, double *values)
+{
+    const packard *model = packard_of(grid);
+    uint64_t words[CHUNK / PACKARD_WORD];
+    model->engine->copy(model->cells, row, words);
+    if (!packard_is_plane(model))
+        keep_inside(grid, row, words);
+    bool bits = field == SNOW_FIELD_VALUE || field == SNOW_FIELD_FROZEN;
+    for (size_t i = 0; i < (size_t)row->width; i++)
+        values[i] = bits ? bit_at(words, i)
+                         : read_cell(grid, field, row->q + (int64_t)i, row->r, bit_at(words, i));
 }
 
 void snow_packard_read(const snow_grid *grid, snow_field field, int64_t q, int64_t r, size_t count, double *values)
 {
-    const packard *model = packard_of(grid);
-    bool plain = packard_is_plane(model) && (field == SNOW_FIELD_VALUE || field == SNOW_FIELD_FROZEN);
     for (size_t i = 0; i < count; i += CHUNK) {
-        uint64_t words[CHUNK / PACKARD_WORD];
         size_t left = count - i;
         packard_region row = {q + (int64_t)i, r, left < CHUNK ? (int64_t)left : CHUNK, 1};
-        model->engine->copy(model->cells, &row, words);
-        if (plain)
-            read_bits(words, (size_t)row.width, values + i);
+        if (field == SNOW_FIELD_INSIDE)
+            read_inside(grid, &row, values + i);
         else
-            read_cells(grid, field, &row, words, values + i);
+            read_row(grid, field, &row, values + i);
     }
 }
 

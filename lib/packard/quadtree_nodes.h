@@ -231,6 +231,8 @@ void snow_quadtree_find_tip(const snow_quadtree *tree, quadtree_measures *measur
 /* A leaf's cells, turned as the pattern is. */
 quadtree_leaf snow_quadtree_cells(const snow_quadtree *tree, quadtree_ref ref);
 quadtree_leaf snow_quadtree_turned_leaf(const quadtree_leaf *leaf, unsigned turn);
+/* A row of it. */
+uint32_t snow_quadtree_leaf_row(const quadtree_leaf *leaf, unsigned turn, int y);
 
 quadtree_base snow_quadtree_base_cells(const snow_quadtree *tree, uint32_t index);
 /* The leaf whose first cell is (x, y). */
