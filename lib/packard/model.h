@@ -203,9 +203,10 @@ bool snow_packard_is_at_rim(const snow_grid *grid);
 /* engine_quadtree.c */
 /* What the quadtree has done so far: nodes made and results found. */
 uint64_t snow_packard_tree_work(const void *cells);
-/* What a saved grid holds of a crystal in the quadtree. */
-void snow_packard_tree_save(void *cells, snow_sink *sink);
-snow_status snow_packard_tree_load(snow_grid *grid, snow_source *source, void **cells);
+/* What a saved grid holds of a crystal in the quadtree. Where that does not stand about the origin, it says where. */
+bool snow_packard_tree_is_shifted(const void *cells);
+void snow_packard_tree_save(const void *cells, snow_sink *sink);
+snow_status snow_packard_tree_load(snow_grid *grid, snow_source *source, bool shifted, void **cells);
 
 /* choose.c */
 /* Chooses the engine for the next steps, of which at most *steps are to be

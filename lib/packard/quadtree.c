@@ -295,6 +295,14 @@ bool snow_quadtree_find_measures(snow_quadtree *tree)
     return true;
 }
 
+void snow_quadtree_set_centre(snow_quadtree *tree, int64_t q, int64_t r)
+{
+    if (q == tree->centre.q && r == tree->centre.r)
+        return;
+    tree->centre = (quadtree_place){q, r};
+    tree->now.measured = tree->kept.measured = false;
+}
+
 snow_status snow_quadtree_measure(snow_quadtree *tree, quadtree_measures *measures)
 {
     if (!tree->now.measured && !snow_quadtree_find_measures(tree))

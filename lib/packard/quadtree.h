@@ -27,7 +27,7 @@ typedef struct quadtree_measures {
     /* Least and greatest q, r and q + r of the frozen cells: the bounding
        hexagon. All 0 when nothing is frozen. */
     int64_t least[3], greatest[3];
-    quadtree_count tip_square; /* greatest squared distance from the origin */
+    quadtree_count tip_square; /* greatest squared distance from the centre */
 } quadtree_measures;
 
 /* Greatest |q| and |r|: cells beyond are refused with SNOW_ERROR_TOO_LARGE, and
@@ -42,6 +42,9 @@ typedef struct quadtree_measures {
    crystal as it was. */
 snow_status snow_quadtree_create(snow_heap *heap, uint8_t rule, snow_quadtree **tree);
 void snow_quadtree_destroy(snow_quadtree *tree); /* NULL: nothing */
+
+/* From here on distances are measured from this cell, less than 2^60 from the axes; at first from the origin. */
+void snow_quadtree_set_centre(snow_quadtree *tree, int64_t q, int64_t r);
 
 /* Makes the cells of a rectangle what the bits say; stride in words. */
 snow_status snow_quadtree_put(snow_quadtree *tree, int64_t q, int64_t r, int64_t width, int64_t height,

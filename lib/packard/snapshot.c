@@ -10,13 +10,15 @@ typedef enum saved_form {
     SAVED_ROWS = 0,
     SAVED_TREE = 1,
     SAVED_BLOCKS = 2,
+    SAVED_SHIFTED_TREE = 3,
     SAVED_FORMS
 } saved_form;
 
 static saved_form form_of(const snow_grid *grid)
 {
-    if (packard_of(grid)->engine == &snow_packard_quadtree)
-        return SAVED_TREE;
+    const packard *model = packard_of(grid);
+    if (model->engine == &snow_packard_quadtree)
+        return snow_packard_tree_is_shifted(model->cells) ? SAVED_SHIFTED_TREE : SAVED_TREE;
     return snow_packard_is_sparse(grid) ? SAVED_BLOCKS : SAVED_ROWS;
 }
 
@@ -129,7 +131,8 @@ static void save_cells(const snow_grid *grid, snow_sink *sink)
 {
     switch (form_of(grid)) {
     case SAVED_ROWS: save_rows(grid, sink); break;
-    case SAVED_TREE: snow_packard_tree_save(packard_of(grid)->cells, sink); break;
+    case SAVED_TREE:
+    case SAVED_SHIFTED_TREE: snow_packard_tree_save(packard_of(grid)->cells, sink); break;
     case SAVED_BLOCKS: save_blocks(grid, sink); break;
     case SAVED_FORMS: break;
     }
@@ -173,7 +176,8 @@ static snow_status load_scene(snow_source *source, saved_scene *scene)
     scene->steps = (int64_t)steps;
     bool sound = still <= 1 && form < SAVED_FORMS && steps <= UINT64_C(1) << 62 &&
                  snow_packard_params_check(params) == SNOW_OK &&
-                 (form != SAVED_TREE || (params->domain == SNOW_PACKARD_PLANE && !params->record_freeze_steps &&
+                 ((form != SAVED_TREE && form != SAVED_SHIFTED_TREE) ||
+                  (params->domain == SNOW_PACKARD_PLANE && !params->record_freeze_steps &&
                                 (params->engine == SNOW_PACKARD_ENGINE_AUTO ||
                                  params->engine == SNOW_PACKARD_ENGINE_QUADTREE)));
     return sound ? SNOW_OK : SNOW_ERROR_DAMAGED;
@@ -397,10 +401,10 @@ static snow_status load_blocks(snow_source *source, snow_grid *grid)
     return status;
 }
 
-static snow_status load_tree(snow_source *source, snow_grid *grid)
+static snow_status load_tree(snow_source *source, snow_grid *grid, bool shifted)
 {
     void *cells;
-    snow_status status = snow_packard_tree_load(grid, source, &cells);
+    snow_status status = snow_packard_tree_load(grid, source, shifted, &cells);
     if (status == SNOW_OK)
         use_engine(grid, &snow_packard_quadtree, cells);
     return status;
@@ -410,7 +414,8 @@ static snow_status load_cells(snow_source *source, saved_form form, snow_grid *g
 {
     switch (form) {
     case SAVED_ROWS: return load_rows(source, grid);
-    case SAVED_TREE: return load_tree(source, grid);
+    case SAVED_TREE:
+    case SAVED_SHIFTED_TREE: return load_tree(source, grid, form == SAVED_SHIFTED_TREE);
     case SAVED_BLOCKS: return load_blocks(source, grid);
     case SAVED_FORMS: break;
     }
