@@ -142,6 +142,34 @@ static void a_grid_may_be_read_by_many_threads(void **state)
     }
 }
 
+/* A grid may wander from thread to thread, as long as one at a time uses it. */
+static void *step_apart(void *context)
+{
+    return snow_step(context, 5) == SNOW_OK ? context : NULL;
+}
+
+static void a_grid_may_change_its_thread(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < test_life_count; i++) {
+        snow_options options = options_of(3);
+        snow_grid *plain = start_life(&test_lives[i], false, NULL);
+        snow_grid *grid = start_life(&test_lives[i], false, &options);
+        for (int round = 0; round < 3; round++) {
+            pthread_t thread;
+            void *answer = NULL;
+            assert_int_equal(0, pthread_create(&thread, NULL, step_apart, grid));
+            assert_int_equal(0, pthread_join(thread, &answer));
+            assert_ptr_equal(grid, answer);
+            assert_ok(snow_step(grid, 2));
+            assert_ok(snow_step(plain, 7));
+            assert_true(digest_of(plain) == digest_of(grid));
+        }
+        snow_destroy(grid);
+        snow_destroy(plain);
+    }
+}
+
 /* --- processes --- */
 
 static void a_child_process_goes_on_with_the_same_bits(void **state)
@@ -231,6 +259,7 @@ int main(void)
         cmocka_unit_test(any_number_of_threads_gives_the_same_bits),
         cmocka_unit_test(grids_share_nothing),
         cmocka_unit_test(a_grid_may_be_read_by_many_threads),
+        cmocka_unit_test(a_grid_may_change_its_thread),
         cmocka_unit_test(a_child_process_goes_on_with_the_same_bits),
         cmocka_unit_test(no_thread_is_left_behind),
     };
