@@ -383,7 +383,8 @@ static inline __attribute__((always_inline)) size_t advance_list(const tile_pass
         fetch_ahead(list, count, i);
         bool changes =
             tile->extra != NULL ? snow_tile_advance_slowly(pass, tile) : advance_tile(tile, pass->phase, freezes);
-        tile->state = (uint8_t)((tile->state & ~TILE_ACTIVE) | (changes ? TILE_CHANGED : 0));
+        tile->state = (uint8_t)((tile->state & ~TILE_CHANGED) | (changes ? TILE_CHANGED : 0));
+        atomic_store_explicit(&tile->active, 0, memory_order_relaxed);
         list[changed] = tile;
         changed += changes;
     }

@@ -394,7 +394,7 @@ snow_status snow_tiles_create(snow_tiles **tiles, snow_heap *heap, const snow_ti
         snow_tiles_destroy(made);
         return refusal;
     }
-    made->nothing->state = TILE_ACTIVE; /* never to be put into the list */
+    made->nothing->active = 1; /* never to be put into the list */
     *tiles = made;
     return SNOW_OK;
 }
