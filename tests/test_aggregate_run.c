@@ -138,7 +138,7 @@ static void save_in_the_middle_and_continue(void **state)
     for (size_t i = 0; i < aggregate_kind_count; i++) {
         snow_aggregate_params params = aggregate_kind(i);
         snow_grid *grid = make_aggregate(&params, NULL);
-        grow(grid, LONG_RUN / 2);
+        grow(grid, params.scene == SNOW_AGGREGATE_CLUSTER_CLUSTER ? 2 * LONG_RUN : LONG_RUN / 2);
         size_t size = 0;
         assert_ok(snow_save(grid, NULL, 0, &size));
         void *bytes = malloc(size);
@@ -399,6 +399,25 @@ static void the_first_of_several_reasons_is_given(void **state)
     snow_destroy(grid);
 }
 
+/* Of walkers that come close few go as far as ten times the radius, and far more go beyond the launch circle. */
+static void walkers_beyond_the_kill_radius_are_dropped(void **state)
+{
+    (void)state;
+    uint64_t walkers[2];
+    const double kill_radii[] = {1.25, 10};
+    for (size_t i = 0; i < COUNT_OF(kill_radii); i++) {
+        snow_aggregate_params params = aggregate_scene(SNOW_AGGREGATE_WITTEN_SANDER);
+        params.engine = SNOW_AGGREGATE_ENGINE_STEPS;
+        params.kill_radius = kill_radii[i];
+        snow_grid *grid = make_aggregate(&params, NULL);
+        assert_ok(snow_step(grid, LONG_RUN));
+        assert_ok(snow_aggregate_walkers(grid, &walkers[i]));
+        snow_destroy(grid);
+    }
+    assert_true(walkers[1] > LONG_RUN); /* a plane's walker comes back for certain, but not soon */
+    assert_true(walkers[0] > 2 * walkers[1]);
+}
+
 /* One allocation after the other fails once: what asks for it says so, and can be asked again. True while there was
    one to fail. */
 static bool grow_with_a_failure(const snow_aggregate_params *params, const snow_grid *expected, int32_t threads,
@@ -510,6 +529,7 @@ int main(void)
         cmocka_unit_test(a_time_budget_ends_an_endless_run),
         cmocka_unit_test(runs_end_at_the_rim_or_full),
         cmocka_unit_test(the_first_of_several_reasons_is_given),
+        cmocka_unit_test(walkers_beyond_the_kill_radius_are_dropped),
         cmocka_unit_test(growth_survives_any_failure),
         cmocka_unit_test(a_full_domain_ends_the_run),
         cmocka_unit_test(the_whole_shore_can_be_washed_away),

@@ -121,6 +121,30 @@ static void a_reader_may_give_little_at_a_time(void **state)
     }
 }
 
+/* More than a reader's text has room for at first. */
+static void a_large_grid_is_read_whole(void **state)
+{
+    (void)state;
+    size_t largest = 0;
+    for (size_t i = 0; i < test_life_count; i++) {
+        snow_grid *grid = start_life(&test_lives[i], true, NULL);
+        assert_ok(snow_step(grid, 3));
+        saved_life saved = save_life(grid);
+        weak_reader reader = {&saved, 0, 50000, saved.size, false};
+        snow_grid *copy = NULL;
+        assert_ok(snow_load_from(read_until_end, &reader, NULL, &copy));
+        assert_true(digest_of(grid) == digest_of(copy));
+        assert_ok(snow_step(grid, 2));
+        assert_ok(snow_step(copy, 2));
+        assert_true(digest_of(grid) == digest_of(copy));
+        largest = saved.size > largest ? saved.size : largest;
+        free_life(&saved);
+        snow_destroy(copy);
+        snow_destroy(grid);
+    }
+    assert_true(largest > 200000);
+}
+
 static void a_reader_may_end_or_fail_anywhere(void **state)
 {
     (void)state;
@@ -251,6 +275,7 @@ int main(void)
         cmocka_unit_test(a_writer_may_fail_anywhere),
         cmocka_unit_test(a_buffer_may_end_anywhere),
         cmocka_unit_test(a_reader_may_give_little_at_a_time),
+        cmocka_unit_test(a_large_grid_is_read_whole),
         cmocka_unit_test(a_reader_may_end_or_fail_anywhere),
         cmocka_unit_test(damaged_bytes_are_noticed),
         cmocka_unit_test(a_grid_is_saved_after_every_step),
