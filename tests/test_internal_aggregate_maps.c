@@ -183,16 +183,13 @@ static void regions_of_a_lattice_are_free(snow_aggregate_lattice lattice)
     choose_places(&self, filled, places, &number);
     for (int count = 1; count <= FILLED; count++) {
         uint32_t seen[PLACES];
-        const uint64_t *changed[PLACES];
-        for (int i = 0; i < PLACES; i++) {
-            snow_map_answer answer = look(&self, places[i]);
-            seen[i] = answer.seen;
-            changed[i] = answer.changed;
-        }
+        for (int i = 0; i < PLACES; i++)
+            seen[i] = look(&self, places[i]).seen;
         add(&self, filled[count - 1], (uint64_t)count);
         for (int i = 0; i < PLACES; i++) {
             check_answer(&self, places[i], filled, count);
-            assert_true(*changed[i] == (uint64_t)count || look(&self, places[i]).seen == seen[i]);
+            snow_map_answer answer = look(&self, places[i]);
+            assert_true(*answer.changed == (uint64_t)count || answer.seen == seen[i]);
         }
     }
     end(&self);

@@ -71,8 +71,7 @@ static void make_exits(snow_aggregate_lattice lattice, int32_t radius, const dou
         }
     }
     snow_alias_cut(alias, outcomes);
-    uint32_t columns = snow_alias_columns(outcomes);
-    for (uint32_t i = 0; i < columns; i++) {
+    for (uint32_t i = 0; i < outcomes; i++) {
         exit[i].threshold = alias->threshold[i];
         exit[i].outcome[1] = exit[alias->other[i]].outcome[0];
     }
@@ -82,7 +81,7 @@ static snow_status make_room(snow_exits *exits, snow_heap *heap, catalogue laws)
 {
     uint32_t columns = 0;
     for (int i = 0; i < laws.count; i++)
-        columns += snow_alias_columns(outcomes_of(exits->lattice, laws.radius[i]));
+        columns += outcomes_of(exits->lattice, laws.radius[i]);
     exits->exit = snow_heap_get(heap, columns, sizeof *exits->exit);
     return exits->exit == NULL ? heap->refusal : SNOW_OK;
 }
@@ -95,8 +94,8 @@ static snow_status make_tables(snow_exits *exits, snow_heap *heap, catalogue law
         snow_status status = snow_exits_law(exits->lattice, radius, chance, heap);
         if (status != SNOW_OK)
             return status;
-        uint32_t columns = snow_alias_columns(outcomes_of(exits->lattice, radius));
-        exits->table[++exits->classes] = (snow_exit_table){exit, columns - 1, radius};
+        uint32_t columns = outcomes_of(exits->lattice, radius);
+        exits->table[++exits->classes] = (snow_exit_table){exit, columns, radius};
         make_exits(exits->lattice, radius, chance, alias, exit);
         exit += columns;
     }
@@ -107,7 +106,7 @@ static snow_status make_tables(snow_exits *exits, snow_heap *heap, catalogue law
 static snow_status make_all(snow_exits *exits, snow_heap *heap)
 {
     catalogue laws = catalogue_of(exits->lattice);
-    uint32_t most = snow_alias_columns(outcomes_of(exits->lattice, laws.radius[laws.count - 1]));
+    uint32_t most = outcomes_of(exits->lattice, laws.radius[laws.count - 1]);
     snow_alias alias;
     snow_status status = snow_alias_start(&alias, heap, most);
     if (status != SNOW_OK)

@@ -24,9 +24,15 @@ typedef struct snow_exit {
 
 typedef struct snow_exit_table {
     const snow_exit *exit; /* never NULL */
-    uint32_t mask;         /* columns less one */
+    uint32_t columns;
     int32_t radius;
 } snow_exit_table;
+
+/* What a number points to: a column, and a place in it. */
+typedef struct snow_exit_pick {
+    const snow_exit *exit;
+    uint32_t place;
+} snow_exit_pick;
 
 enum { SNOW_EXIT_CLASSES = 40, SNOW_EXIT_OCTAVES = 15, SNOW_EXIT_PARTS = 8 };
 
@@ -46,6 +52,14 @@ void snow_exits_end(snow_exits *exits, snow_heap *heap);
 /* The largest class whose radius is at most this; radius >= 1. */
 int snow_exits_class(const snow_exits *exits, int64_t radius);
 
+/* The number, taken as a fraction of 1, times the columns. What follows the
+   place, 32 bits and more, is left for the symmetries of the region. */
+static inline snow_exit_pick snow_exit_table_pick(const snow_exit_table *table, uint64_t number)
+{
+    uint64_t product = (number >> 32) * table->columns + ((number & 0xFFFFFFFF) * table->columns >> 32);
+    return (snow_exit_pick){&table->exit[product >> 32], (uint32_t)product};
+}
+
 /* The laws themselves, for any radius from 1 on.
    Square: chance[x], x < radius, of each site at offset x of a side:
    4 chance[0] + 8 (chance[1] + ...) = 1. */
@@ -58,6 +72,7 @@ snow_status snow_exits_hexagonal(int32_t radius, double *chance, snow_heap *heap
 /* Cubic: chance[a * (a + 1) / 2 + b], b <= a < radius, of each site with
    offsets a and b on its face. */
 snow_status snow_exits_cubic(int32_t radius, double *chance, snow_heap *heap);
+
 /* The one of these that is for the lattice. */
 snow_status snow_exits_law(snow_aggregate_lattice lattice, int32_t radius, double *chance, snow_heap *heap);
 

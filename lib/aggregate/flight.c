@@ -96,35 +96,27 @@ COPIED snow_site fold(const snow_source_of_walkers *source, snow_aggregate_latti
     return site;
 }
 
-/* The column of the table that a number points to. */
-COPIED const snow_exit *column_of(const snow_exit_table *table, uint64_t bits)
-{
-    return &table->exit[(uint32_t)bits & table->mask];
-}
-
 /* To a site at distance `radius`, by the exact law. */
-COPIED snow_site jump(const snow_exit *exit, int32_t radius, snow_aggregate_lattice lattice, snow_site site, uint64_t bits)
+COPIED snow_site jump(const snow_exit_table *table, snow_aggregate_lattice lattice, snow_site site, uint64_t number)
 {
-    uint32_t low = (uint32_t)bits;
-    uint32_t high = (uint32_t)(bits >> 32);
+    int32_t radius = table->radius;
+    snow_exit_pick pick = snow_exit_table_pick(table, number);
+    int32_t offset = pick.exit->outcome[pick.place >= pick.exit->threshold];
     if (lattice == SNOW_AGGREGATE_SQUARE) {
-        const int32_t *image = image_of_square[low >> 29];
-        int32_t along = exit->outcome[high >= exit->threshold];
-        site.x += image[0] * along + image[1] * radius;
-        site.y += image[2] * along + image[3] * radius;
+        const int32_t *image = image_of_square[number & 7];
+        site.x += image[0] * offset + image[1] * radius;
+        site.y += image[2] * offset + image[3] * radius;
         return site;
     }
-    uint64_t product = (uint64_t)high * 6;
-    uint32_t side = (uint32_t)(product >> 32);
-    int32_t offset = exit->outcome[(uint32_t)product >= exit->threshold];
+    uint32_t side = (uint32_t)((number & 0xFFFFFFFF) * 6 >> 32);
     if (lattice == SNOW_AGGREGATE_HEXAGONAL) {
         site.x += radius * corner_q[side] + offset * side_q[side];
         site.y += radius * corner_r[side] + offset * side_r[side];
         return site;
     }
-    int32_t mirror_a = -(int32_t)(low >> 31);
-    int32_t mirror_b = -(int32_t)(low >> 30 & 1);
-    int32_t swap = -(int32_t)(low >> 29 & 1);
+    int32_t mirror_a = -(int32_t)(number & 1);
+    int32_t mirror_b = -(int32_t)(number >> 1 & 1);
+    int32_t swap = -(int32_t)(number >> 2 & 1);
     int32_t a = ((offset >> 8) ^ mirror_a) - mirror_a;
     int32_t b = ((offset & 255) ^ mirror_b) - mirror_b;
     swap &= a ^ b;
@@ -210,12 +202,10 @@ typedef struct manner {
 COPIED snow_site leave(const snow_ground *ground, manner how, snow_site site, uint32_t class, snow_draws *draws)
 {
     const snow_exit_table *table = &ground->exits.table[class];
-    if (how.lattice == SNOW_AGGREGATE_HEXAGONAL && RARE(class >= (uint32_t)ground->exits.circles)) {
+    if (how.lattice == SNOW_AGGREGATE_HEXAGONAL && RARE(class >= (uint32_t)ground->exits.circles))
         site = snow_source_circle(site, table->radius, draws);
-    } else {
-        uint64_t bits = snow_draws_next(draws);
-        site = jump(column_of(table, bits), table->radius, how.lattice, site, bits);
-    }
+    else
+        site = jump(table, how.lattice, site, snow_draws_next(draws));
     return how.in_vessel ? fold(&ground->source, how.lattice, site) : site;
 }
 
@@ -270,7 +260,7 @@ COPIED void put_at(snow_flight *flight, manner how, snow_site site)
 
 COPIED void note(snow_flight *flight, snow_site site, snow_map_answer answer)
 {
-    flight->diary[flight->asked++] = (snow_question){answer.changed, site, answer.seen, flight->draws.used};
+    flight->diary[flight->asked++] = (snow_question){site, answer.seen, flight->draws.used};
 }
 
 /* A turn. False: it cannot go on by itself, since it has landed or its diary is full. */
@@ -349,8 +339,8 @@ uint32_t snow_flight_outdated(const snow_ground *ground, const snow_flight *flig
     manner how = manner_of(ground);
     for (uint32_t i = 0; i < flight->asked; i++) {
         const snow_question *question = &flight->diary[i];
-        if (RARE(*question->changed > since) &&
-            see(ground, how.lattice, how.careful, question->site).seen != question->answer)
+        snow_map_answer answer = see(ground, how.lattice, how.careful, question->site);
+        if (RARE(*answer.changed > since) && answer.seen != question->answer)
             return i;
     }
     return flight->asked;

@@ -23,7 +23,6 @@ typedef struct snow_ground {
 /* What a walker asked, what it was told, and how many numbers it had used: while
    the same questions have the same answers, it walks the same way. */
 typedef struct snow_question {
-    const uint64_t *changed; /* see matter.h */
     snow_site site;
     uint32_t answer;
     uint32_t drawn;

@@ -220,7 +220,6 @@ static snow_plane_page *page_of(snow_plane_map *map, int64_t column, int64_t row
     snow_plane_page *page = SNOW_MAP_GET(*entry);
     if (page->distance == 0)
         return page;
-    page->changed = map->landing;
     page = snow_pool_take(&map->pages);
     start_page(page, map->patch[0][0], 0, map->landing);
     SNOW_MAP_PUT_ADDRESS(*entry, page);
@@ -337,7 +336,7 @@ static void spread_tile(snow_plane_map *map, int64_t i, int64_t j)
             int d = apart(map->lattice, (int)(x - i), (int)(y - j));
             if (d >= page->distance)
                 continue;
-            page->changed = map->landing;
+            map->far[d].changed = map->landing;
             SNOW_MAP_PUT_ADDRESS(*entry, &map->far[d]);
         }
     }

@@ -46,11 +46,12 @@ typedef struct snow_plane_matter {
     _Atomic uint16_t obstacle[16];
 } snow_plane_matter;
 
+/* Two cache lines: far from what is special walkers need but the first. */
 typedef struct snow_plane_page {
-    _Atomic uint8_t near[64];         /* 0, 1: so many blocks away; else the class */
-    snow_plane_line *_Atomic line[4]; /* never NULL: where nothing is near they share one */
-    uint64_t changed;                 /* what this page says: last, by the landing of this number */
-    uint8_t distance;                 /* of the tiles that this page stands for; 0: it is one tile's own */
+    _Alignas(64) _Atomic uint8_t near[64]; /* 0, 1: so many blocks away; else the class */
+    snow_plane_line *_Atomic line[4];      /* never NULL: where nothing is near they share one */
+    uint64_t changed;                      /* what this page says: last, by the landing of this number */
+    uint8_t distance;                      /* of the tiles that this page stands for; 0: it is one tile's own */
 } snow_plane_page;
 
 /* The sites that the map covers: whole squares of tiles; x and y are multiples of 32. */

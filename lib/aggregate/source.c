@@ -163,13 +163,21 @@ static snow_site launch_in_vessel(const snow_source_of_walkers *source, snow_dra
     return (snow_site){x, y, row};
 }
 
-snow_site snow_source_launch(const snow_source_of_walkers *source, snow_draws *draws)
+static snow_site launch(const snow_source_of_walkers *source, snow_draws *draws)
 {
     if (source->width > 0)
         return launch_in_vessel(source, draws);
     double radius = source->rim + blur(draws) * (is_in_space(source) ? 0.5 : 1);
     point unit = is_in_space(source) ? unit_sphere(draws) : unit_circle(draws);
     return site_at(source->lattice, (point){radius * unit.x, radius * unit.y, radius * unit.z});
+}
+
+snow_site snow_source_launch(const snow_source_of_walkers *source, snow_draws *draws)
+{
+    snow_draws_end_block(draws);
+    snow_site site = launch(source, draws);
+    snow_draws_end_block(draws);
+    return site;
 }
 
 bool snow_source_is_beyond(const snow_source_of_walkers *source, snow_site site)
@@ -224,7 +232,7 @@ static point return_to_sphere(double radius, point from, double distance, snow_d
                    radius * (cosine * axis.z + c * first.z + d * second.z)};
 }
 
-snow_site snow_source_return(const snow_source_of_walkers *source, snow_site site, snow_draws *draws)
+static snow_site come_back(const snow_source_of_walkers *source, snow_site site, snow_draws *draws)
 {
     if (source->width > 0)
         return launch_in_vessel(source, draws);
@@ -234,14 +242,24 @@ snow_site snow_source_return(const snow_source_of_walkers *source, snow_site sit
         return site_at(source->lattice, return_to_circle(radius, from, draws));
     double distance = sqrt(squared(from));
     if (snow_draws_uniform(draws) * distance >= radius)
-        return snow_source_launch(source, draws);
+        return launch(source, draws);
     return site_at(source->lattice, return_to_sphere(radius, from, distance, draws));
+}
+
+snow_site snow_source_return(const snow_source_of_walkers *source, snow_site site, snow_draws *draws)
+{
+    snow_draws_end_block(draws);
+    site = come_back(source, site, draws);
+    snow_draws_end_block(draws);
+    return site;
 }
 
 snow_site snow_source_circle(snow_site site, int32_t radius, snow_draws *draws)
 {
+    snow_draws_end_block(draws);
     double inside = radius * HALF_SQRT_3 - 2 - blur(draws);
     point unit = unit_circle(draws);
+    snow_draws_end_block(draws);
     point from = point_of(SNOW_AGGREGATE_HEXAGONAL, site);
     return site_at(SNOW_AGGREGATE_HEXAGONAL, (point){from.x + inside * unit.x, from.y + inside * unit.y, 0});
 }

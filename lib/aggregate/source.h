@@ -39,6 +39,8 @@ typedef struct snow_source_of_walkers {
    of about one percent, so that most particles do not change them. */
 void snow_source_fit(snow_source_of_walkers *source, int64_t farthest);
 
+/* These begin and end with a block of numbers. */
+
 /* A walker from infinity. */
 snow_site snow_source_launch(const snow_source_of_walkers *source, snow_draws *draws);
 
