@@ -11,21 +11,18 @@ enum { LOOKS_BEFORE_YIELD = 200 };
 /* So many rows of diaries; a walker that asks more waits for its turn to land. */
 enum { PLANE_ROWS = 256, SPACE_ROWS = 512 };
 
-#ifndef WAITING
-#define WAITING 24
-#endif
-#ifndef USED_SQUADS
-#define USED_SQUADS 2
-#endif
+/* So many walkers of a thread are on their way; so many more may have landed and wait for those before them. */
+enum { SQUADS = 2, WAITING = 24, ABREAST_IN_TURN = 6, WAITING_IN_TURN = 6 };
 
 snow_status snow_ahead_start(snow_ahead *ahead, snow_heap *heap, int threads, bool space)
 {
     if (ahead->window > 0)
         return SNOW_OK;
     bool in_turn = ahead->ground->walk == snow_squads_walk_in_turn;
-    int squads = in_turn ? 1 : USED_SQUADS;
-    int abreast = in_turn ? 6 : 8;
-    uint64_t window = (uint64_t)threads * (in_turn ? 12 : (uint64_t)(squads * abreast) + WAITING);
+    int squads = in_turn ? 1 : SQUADS;
+    int abreast = in_turn ? ABREAST_IN_TURN : SNOW_LANES;
+    int waiting = in_turn ? WAITING_IN_TURN : WAITING;
+    uint64_t window = (uint64_t)threads * (uint64_t)(squads * abreast + waiting);
     uint32_t room = space ? SPACE_ROWS : PLANE_ROWS;
     size_t rings = (size_t)threads * (size_t)squads;
     ahead->voyage = snow_heap_get(heap, window, sizeof *ahead->voyage);

@@ -30,7 +30,7 @@ typedef struct snow_voyage {
     snow_stay stay; /* when it is done */
 } snow_voyage;
 
-enum { SNOW_SQUADS = 3, SNOW_QUEUE = 64 };
+enum { SNOW_QUEUE = 64 };
 
 /* A squad's walkers that have not landed yet, in their order. */
 typedef struct snow_queue {
