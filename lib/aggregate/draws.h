@@ -29,8 +29,8 @@ void snow_draws_refill_baseline(snow_draws *draws);
 void snow_draws_refill_avx2(snow_draws *draws);
 snow_draws_refill snow_draws_choose(snow_isa isa);
 
-/* The first numbers of a stream. */
-void snow_draws_start(snow_draws *draws, snow_draws_refill refill, uint64_t key, uint64_t walker);
+/* The stream of a walker that has used so many. */
+void snow_draws_start(snow_draws *draws, snow_draws_refill refill, uint64_t key, uint64_t walker, uint32_t used);
 
 /* Back, or on, to when so many were used. */
 void snow_draws_move(snow_draws *draws, uint32_t used);

@@ -98,6 +98,7 @@ static snow_status make_tables(snow_exits *exits, snow_heap *heap, catalogue law
             return status;
         uint32_t columns = outcomes_of(exits->lattice, radius);
         exits->table[++exits->classes] = (snow_exit_table){exit, columns, radius};
+        exits->place[exits->classes] = (uint32_t)(exit - exits->exit) << SNOW_EXIT_RADIUS_BITS | (uint32_t)radius;
         make_exits(exits->lattice, radius, chance, alias, exit);
         exit += columns;
     }
@@ -172,13 +173,18 @@ static int octave_of(int64_t radius)
 #endif
 }
 
-int snow_exits_class(const snow_exits *exits, int64_t radius)
+int snow_exits_class_near(const snow_exits *exits, int64_t radius)
 {
     enum { LAST = SNOW_EXIT_OCTAVES - 1 };
     int octave = octave_of(radius);
-    int class = exits->class_from[LAST][SNOW_EXIT_PARTS - 1];
-    if (octave <= LAST)
-        class = exits->class_from[octave][(radius * SNOW_EXIT_PARTS >> octave) % SNOW_EXIT_PARTS];
+    if (octave > LAST)
+        return exits->class_from[LAST][SNOW_EXIT_PARTS - 1];
+    return exits->class_from[octave][(radius * SNOW_EXIT_PARTS >> octave) % SNOW_EXIT_PARTS];
+}
+
+int snow_exits_class(const snow_exits *exits, int64_t radius)
+{
+    int class = snow_exits_class_near(exits, radius);
     while (class + 1 < exits->classes && exits->table[class + 1].radius <= radius)
         class++;
     return class;

@@ -34,7 +34,7 @@ typedef struct snow_exit_pick {
     uint32_t place;
 } snow_exit_pick;
 
-enum { SNOW_EXIT_CLASSES = 64, SNOW_EXIT_OCTAVES = 15, SNOW_EXIT_PARTS = 8 };
+enum { SNOW_EXIT_CLASSES = 64, SNOW_EXIT_OCTAVES = 15, SNOW_EXIT_PARTS = 8, SNOW_EXIT_RADIUS_BITS = 14 };
 
 /* The tables of a lattice, by ascending radius. */
 typedef struct snow_exits {
@@ -44,6 +44,7 @@ typedef struct snow_exits {
     snow_exit_table table[SNOW_EXIT_CLASSES + 1];
     snow_exit *exit;
     uint8_t class_from[SNOW_EXIT_OCTAVES][SNOW_EXIT_PARTS]; /* for radius 2^n (1 + part/8), rounded up */
+    uint32_t place[SNOW_EXIT_CLASSES + 1]; /* for vectors: first column << SNOW_EXIT_RADIUS_BITS | radius */
 } snow_exits;
 
 snow_status snow_exits_start(snow_exits *exits, snow_heap *heap, snow_aggregate_lattice lattice);
@@ -51,6 +52,9 @@ void snow_exits_end(snow_exits *exits, snow_heap *heap);
 
 /* The largest class whose radius is at most this; radius >= 1. */
 int snow_exits_class(const snow_exits *exits, int64_t radius);
+
+/* One of the classes up to that, found without a search. */
+int snow_exits_class_near(const snow_exits *exits, int64_t radius);
 
 /* The number, taken as a fraction of 1, times the columns. What follows the
    place, 32 bits and more, is left for the symmetries of the region. */

@@ -138,7 +138,7 @@ void snow_source_fit(snow_source_of_walkers *source, int64_t farthest)
     source->rim = (int32_t)rim;
     source->reach = (int32_t)(source->lattice == SNOW_AGGREGATE_HEXAGONAL ? rim * 37 / 32 + 1 : rim);
     source->far = is_in_space(source) ? far_in_space(rim) : far_in_plane(rim);
-    source->safe = source->far / 2 - source->reach;
+    source->safe = source->far - source->reach;
 }
 
 /* A row of the vessel; on the hexagonal lattice a site on a mirror stands for one, each other for two. */
@@ -178,17 +178,6 @@ snow_site snow_source_launch(const snow_source_of_walkers *source, snow_draws *d
     snow_site site = launch(source, draws);
     snow_draws_end_block(draws);
     return site;
-}
-
-bool snow_source_is_beyond(const snow_source_of_walkers *source, snow_site site)
-{
-    if (source->width > 0)
-        return (is_in_space(source) ? site.z : site.y) > source->far;
-    int64_t x = site.x;
-    int64_t y = site.y;
-    int64_t z = site.z;
-    int64_t mixed = source->lattice == SNOW_AGGREGATE_HEXAGONAL ? x * y : 0;
-    return x * x + y * y + z * z + mixed > source->far * source->far;
 }
 
 /* The disc |w| < 1 is turned so that 0 goes to a, where the walker's mirror image
