@@ -6,14 +6,16 @@
 
 /* The small radii are those that the maps give; of the large ones few are
    enough, and stay in the cache. */
-static const int32_t radii_square[] = {1,   2,   3,   5,   9,   13,  17,  21,  25,  29,  33,   41,   49,   57,   65,   81,   97,
-                                       113, 129, 161, 193, 225, 257, 321, 385, 449, 513, 641, 769, 897, 1025, 1281, 1537, 2049,
-                                       3073, 4097, 8193};
-static const int32_t radii_hexagonal[] = {1, 2, 3, 5, 9, 13, 17, 21, 25, 29, 33, 49, 65, 97, 129};
+static const int32_t radii_square[] = {1,   2,   3,   5,   7,   9,   11,   13,   15,   17,   19,   21,   25,
+                                       29,  33,  37,  41,  45,  49,  57,   65,   73,   81,   89,   97,   113,
+                                       128, 160, 192, 224, 256, 288, 320,  352,  384,  448,  512,  576,  640,
+                                       704, 768, 896, 1024, 1280, 1536, 1792, 2048, 2560, 3072, 4096, 6144, 8192};
+static const int32_t radii_hexagonal[] = {1,  2,  3,  5,  7,  9,  11, 13, 15, 17, 19, 21, 25,
+                                          29, 33, 37, 41, 49, 57, 65, 81, 97, 113, 129};
 static const int32_t radii_cubic[] = {1, 2, 3, 5, 9, 13, 17, 33, 49, 65, 97, 129, 193, 256};
 /* Hexagonal: regions that are left through circles. */
-static const int32_t radii_of_circles[] = {257, 321, 385,  449,  513,  577,  641,  705,  769,
-                                           833, 897, 1025, 2049, 3073, 4097, 6145, 8193, 14337};
+static const int32_t radii_of_circles[] = {257, 288, 320, 352,  384,  448,  512,  576,  640,  704,  768, 832,
+                                           896, 1024, 1280, 1536, 1792, 2048, 2560, 3072, 4096, 6144, 8192, 14336};
 
 #define COUNT_OF(array) ((int)(sizeof(array) / sizeof(array)[0]))
 

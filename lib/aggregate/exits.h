@@ -34,7 +34,7 @@ typedef struct snow_exit_pick {
     uint32_t place;
 } snow_exit_pick;
 
-enum { SNOW_EXIT_CLASSES = 40, SNOW_EXIT_OCTAVES = 15, SNOW_EXIT_PARTS = 8, SNOW_EXIT_RADIUS_BITS = 14 };
+enum { SNOW_EXIT_CLASSES = 64, SNOW_EXIT_OCTAVES = 15, SNOW_EXIT_PARTS = 8, SNOW_EXIT_RADIUS_BITS = 14 };
 
 /* The tables of a lattice, by ascending radius. */
 typedef struct snow_exits {

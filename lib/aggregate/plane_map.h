@@ -8,31 +8,23 @@
    - for each site whether the nearest special site is at distance 0, 1, 2 or
      more: two bits a site, a word for 16 sites of a row, a cache line (a "line")
      for 16 x 16 sites near which there is one;
-   - for each block of 4 x 4 sites how many blocks away the nearest one with a
-     special site is, up to 8, and beyond that how many patches of 16 x 16 sites
-     its patch is away, up to 6: a byte a block, in "pages" of 32 x 32 sites near
-     which there is one;
-   - the same for tiles, the places of pages, up to 15;
-   - the same for squares of 16 x 16 tiles, up to 15.
-   Where blocks of b sites are d blocks apart, (d - 1) b sites are free between
-   their nearest sites. Bytes hold the class that follows. Where there is no page
-   of a tile's own one stands that says the same everywhere, so that each
-   question takes the same way: which branch it would take nobody could foretell.
-   The map is a function of the set of special sites: the order in which they came
-   does not show. */
+   - for each block of 4 x 4 sites what the cells of plane_halo.h up to 8 sites wide
+     say: a byte a block, in "pages" of 32 x 32 sites near which there is one;
+   - for each tile, the place of a page, what larger cells say.
+   Bytes hold classes: the least that cells say, 0 where a special site lies in the
+   place. Where there is no page of a tile's own one stands that says the same
+   everywhere, so that each question takes the same way: which branch it would
+   take nobody could foretell. The map is a function of the set of special sites:
+   the order in which they came does not show. */
 #ifndef SNOW_AGGREGATE_PLANE_MAP_H
 #define SNOW_AGGREGATE_PLANE_MAP_H
 
-#include "aggregate/exits.h"
 #include "aggregate/matter.h"
+#include "aggregate/plane_halo.h"
 #include "aggregate/pool.h"
 
-enum {
-    SNOW_PLANE_NEAR = 8,    /* the greatest distance of blocks that is told apart */
-    SNOW_PLANE_PATCHES = 6, /* of patches */
-    SNOW_PLANE_FAR = 15,    /* of tiles, of squares */
-    SNOW_PLANE_MARGIN = 128 /* of sites that are not special, on sides where the map may be widened */
-};
+/* Between special sites and those sides where the map may be widened: more than cells of blocks see. */
+enum { SNOW_PLANE_MARGIN = 96 };
 
 /* Three less the distance of each site, two bits each. */
 typedef struct snow_plane_line {
@@ -48,13 +40,16 @@ typedef struct snow_plane_matter {
 
 /* Two cache lines: far from what is special walkers need but the first. */
 typedef struct snow_plane_page {
-    _Alignas(64) _Atomic uint8_t near[64]; /* 0, 1: so many blocks away; else the class */
-    snow_plane_line *_Atomic line[4];      /* never NULL: where nothing is near they share one */
-    uint64_t changed;                      /* what this page says: last, by the landing of this number */
-    uint8_t distance;                      /* of the tiles that this page stands for; 0: it is one tile's own */
+    union {
+        _Alignas(64) _Atomic uint8_t near[64]; /* of blocks */
+        _Atomic uint64_t near_row[8];
+    };
+    snow_plane_line *_Atomic line[4]; /* never NULL: where nothing is near they share one */
+    uint64_t changed;                 /* what this page says: last, by the landing of this number */
+    bool is_shared;                   /* by tiles that have none of their own */
 } snow_plane_page;
 
-/* The sites that the map covers: whole squares of tiles; x and y are multiples of 32. */
+/* The sites that the map covers: whole cells of the largest size; x and y are multiples of 512. */
 typedef struct snow_plane_box {
     int32_t x, y;
     uint32_t columns, rows;
@@ -64,20 +59,16 @@ typedef struct snow_plane_map {
     snow_plane_box box;
     uint32_t width, height; /* of the box, sites */
     snow_plane_page *_Atomic *tile;
-    snow_plane_page *square; /* for tiles that are far from all special ones */
-    uint8_t *square_distance;
-    snow_plane_page far[SNOW_PLANE_FAR + 1]; /* for tiles at this distance */
-    uint8_t near_class[SNOW_PLANE_NEAR + 2];
-    uint8_t square_class[SNOW_PLANE_FAR + 2];
+    uint8_t *tile_class;
+    snow_plane_page far[SNOW_EXIT_CLASSES]; /* for tiles of this class */
     snow_pool pages;
     snow_pool lines; /* with matter, if that is kept */
     bool keeps_matter;
     snow_aggregate_lattice lattice;
-    uint32_t print[16][7][3];  /* for each place in a row: what a filled site does to the rows round it */
-    uint8_t near[17][17 + 16]; /* classes round a block, from the middle; at both sides 8 columns more */
-    uint8_t patch[13][13 * 4 + 16]; /* the same round a patch, four times each */
-    uint64_t landing;          /* for pages that change now */
-    snow_plane_page outside;   /* stands for all places where the map ends */
+    uint32_t print[16][7][3]; /* for each place in a row: what a filled site does to the rows round it */
+    snow_halos *halos;
+    uint64_t landing;         /* for pages that change now */
+    snow_plane_page outside;  /* stands for all places where the map ends */
 } snow_plane_map;
 
 snow_status snow_plane_map_start(snow_plane_map *map, snow_heap *heap, const snow_exits *exits, bool keeps_matter,
