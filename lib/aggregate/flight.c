@@ -44,19 +44,18 @@ COPIED const void *find(const snow_ground *ground, snow_aggregate_lattice lattic
     return snow_plane_map_find(&ground->plane, site.x, site.y);
 }
 
-COPIED snow_map_answer look(const void *page, snow_aggregate_lattice lattice, snow_site site)
+COPIED uint32_t look(const void *page, snow_aggregate_lattice lattice, snow_site site)
 {
     if (lattice == SNOW_AGGREGATE_CUBIC)
-        return snow_space_page_look(page, site.x, site.y, site.z);
+        return snow_space_page_look(page, site.x, site.y, site.z).seen;
     return snow_plane_page_look(page, site.x, site.y);
 }
 
-/* By which landing last. */
-COPIED uint64_t changed(const void *page, snow_aggregate_lattice lattice)
+COPIED bool has_changed(const snow_ground *ground, snow_aggregate_lattice lattice, snow_site site, uint64_t since)
 {
     if (lattice == SNOW_AGGREGATE_CUBIC)
-        return ((const snow_space_page *)page)->changed;
-    return ((const snow_plane_page *)page)->changed;
+        return snow_space_map_find(&ground->space, site.x, site.y, site.z)->changed > since;
+    return snow_plane_map_has_changed(&ground->plane, site.x, site.y, since);
 }
 
 COPIED int matter(const snow_ground *ground, snow_aggregate_lattice lattice, snow_site site)
@@ -193,12 +192,10 @@ COPIED bool trial(const snow_ground *ground, snow_aggregate_lattice lattice, sno
 }
 
 /* What the walker sees: the class, or, at a special site where it may go on, 256 and what is around. */
-COPIED snow_map_answer see(const snow_ground *ground, snow_aggregate_lattice lattice, bool careful, snow_site site)
+COPIED uint32_t see(const snow_ground *ground, snow_aggregate_lattice lattice, bool careful, snow_site site)
 {
-    snow_map_answer answer = look(find(ground, lattice, site), lattice, site);
-    if (careful && answer.seen == 0)
-        answer.seen = 256 + (touched(ground, lattice, site) << 9);
-    return answer;
+    uint32_t seen = look(find(ground, lattice, site), lattice, site);
+    return careful && seen == 0 ? 256 + (touched(ground, lattice, site) << 9) : seen;
 }
 
 /* What is constant for all walkers of a ground. */
@@ -291,7 +288,7 @@ COPIED void all_go_on(const snow_ground *ground, manner how, snow_squad *squad)
             continue;
         snow_flight *flight = &squad->flight[lane];
         snow_site site = site_of(flight, how);
-        uint32_t answer = see(ground, how.lattice, how.careful, site).seen;
+        uint32_t answer = see(ground, how.lattice, how.careful, site);
         note(row, lane, how, flight, answer);
         if (RARE(advance(ground, how, &site, &flight->draws, answer)))
             squad->landed |= 1u << lane;
@@ -336,9 +333,9 @@ snow_site snow_flight_finish(const snow_ground *ground, snow_flight *flight)
     manner how = manner_of(ground);
     snow_site site = site_of(flight, how);
     while (!flight->landed) {
-        snow_map_answer answer = see(ground, how.lattice, how.careful, site);
+        uint32_t answer = see(ground, how.lattice, how.careful, site);
         flight->asked++;
-        flight->landed = advance(ground, how, &site, &flight->draws, answer.seen);
+        flight->landed = advance(ground, how, &site, &flight->draws, answer);
     }
     put_at(flight, how, site);
     return site;
@@ -402,9 +399,8 @@ COPIED uint32_t outdated(const snow_ground *ground, manner how, const snow_squad
     for (uint32_t i = first; i != end; i++) {
         const snow_row *row = snow_squad_row(squad, i);
         snow_site site = {row->x[lane], row->y[lane], how.lattice == SNOW_AGGREGATE_CUBIC ? row->z[lane] : 0};
-        const void *page = find(ground, how.lattice, site);
-        if (RARE(changed(page, how.lattice) > since) &&
-            see(ground, how.lattice, how.careful, site).seen != row->answer[lane])
+        if (RARE(has_changed(ground, how.lattice, site, since)) &&
+            see(ground, how.lattice, how.careful, site) != row->answer[lane])
             return i;
     }
     return end;

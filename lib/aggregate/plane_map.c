@@ -73,10 +73,9 @@ static size_t tiles_of(snow_plane_box box)
     return (size_t)box.columns * box.rows;
 }
 
-static void start_page(snow_plane_page *page, uint8_t class, bool is_shared, uint64_t landing)
+static void start_page(snow_plane_page *page, uint8_t class, bool is_shared)
 {
     page->is_shared = is_shared;
-    page->changed = landing;
     for (int i = 0; i < 64; i++)
         atomic_init(&page->near[i], class);
     for (int i = 0; i < 4; i++)
@@ -87,7 +86,9 @@ static snow_status cover(snow_plane_map *map, snow_heap *heap, snow_plane_box bo
 {
     snow_plane_page *_Atomic *tile = snow_heap_get_raw(heap, tiles_of(box), sizeof *tile);
     uint8_t *tile_class = snow_heap_get_raw(heap, tiles_of(box), 1);
-    if (tile == NULL || tile_class == NULL) {
+    uint32_t *changed = snow_heap_get(heap, tiles_of(box), sizeof *changed);
+    if (tile == NULL || tile_class == NULL || changed == NULL) {
+        snow_heap_put(heap, changed);
         snow_heap_put(heap, tile_class);
         snow_heap_put(heap, tile);
         return heap->refusal;
@@ -100,11 +101,13 @@ static snow_status cover(snow_plane_map *map, snow_heap *heap, snow_plane_box bo
     map->height = box.rows * 32;
     map->tile = tile;
     map->tile_class = tile_class;
+    map->changed = changed;
     return SNOW_OK;
 }
 
 static void uncover(const snow_plane_map *map, snow_heap *heap)
 {
+    snow_heap_put(heap, map->changed);
     snow_heap_put(heap, map->tile_class);
     snow_heap_put(heap, map->tile);
 }
@@ -129,10 +132,10 @@ snow_status snow_plane_map_start(snow_plane_map *map, snow_heap *heap, const sno
     map->halos = snow_heap_get_raw(heap, 1, sizeof *map->halos);
     if (map->halos == NULL)
         return heap->refusal;
-    start_page(&map->outside, SNOW_MAP_BEYOND, true, 0);
+    start_page(&map->outside, SNOW_MAP_BEYOND, true);
     snow_halos_make(map->halos, exits);
     for (int class = 0; class < SNOW_EXIT_CLASSES; class++)
-        start_page(&map->far[class], (uint8_t)class, true, 0);
+        start_page(&map->far[class], (uint8_t)class, true);
     make_prints(map);
     return cover(map, heap, box);
 }
@@ -144,18 +147,30 @@ void snow_plane_map_end(snow_plane_map *map, snow_heap *heap)
     uncover(map, heap);
     snow_heap_put(heap, map->halos);
     map->halos = NULL;
+    map->changed = NULL;
     map->tile_class = NULL;
     map->tile = NULL;
 }
 
+static void stamp(const snow_plane_map *map, size_t tile)
+{
+    map->changed[tile] = (uint32_t)map->landing;
+}
+
+static size_t tile_at(const snow_plane_map *map, int64_t column, int64_t row)
+{
+    return (size_t)row * map->box.columns + (size_t)column;
+}
+
 static inline snow_plane_page *page_of(snow_plane_map *map, int64_t column, int64_t row)
 {
-    snow_plane_page *_Atomic *entry = &map->tile[(size_t)row * map->box.columns + (size_t)column];
+    snow_plane_page *_Atomic *entry = &map->tile[tile_at(map, column, row)];
     snow_plane_page *page = SNOW_MAP_GET(*entry);
     if (!page->is_shared)
         return page;
     page = snow_pool_take(&map->pages);
-    start_page(page, map->halos->beyond_blocks, false, map->landing);
+    start_page(page, map->halos->beyond_blocks, false);
+    stamp(map, tile_at(map, column, row));
     SNOW_MAP_PUT_ADDRESS(*entry, page);
     return page;
 }
@@ -169,7 +184,7 @@ static snow_plane_line *line_of(snow_plane_map *map, uint32_t u, uint32_t v)
 {
     uint32_t place = v / 16 % 2 * 2 + u / 16 % 2;
     snow_plane_page *page = known_page(map, u, v);
-    page->changed = map->landing;
+    stamp(map, tile_at(map, u / TILE, v / TILE));
     snow_plane_line *line = SNOW_MAP_GET(page->line[place]);
     if (line == &snow_plane_nothing.line) {
         line = snow_pool_take(&map->lines);
@@ -254,9 +269,8 @@ static part clip(part all, int64_t columns, int64_t rows)
                   at_least(all.first_row, 0), at_most(all.last_row, rows - 1)};
 }
 
-/* Rows of a page, from block (x, y) on, as counted from the halo's corner. */
-static void lower_rows(snow_plane_map *map, snow_plane_page *page, int first, int last, const snow_halo *halo,
-                       int x, int y)
+/* Rows of a page, from block (x, y) on, as counted from the halo's corner. True: they change. */
+static bool lower_rows(snow_plane_page *page, int first, int last, const snow_halo *halo, int x, int y)
 {
     bool changed = false;
     for (int row = first; row <= last; row++, y++) {
@@ -267,8 +281,7 @@ static void lower_rows(snow_plane_map *map, snow_plane_page *page, int first, in
         SNOW_MAP_PUT(page->near_row[row], now);
         changed = true;
     }
-    if (changed)
-        page->changed = map->landing;
+    return changed;
 }
 
 /* A cell that begins in the block (i, j) has got its first special site. */
@@ -279,8 +292,9 @@ static void spread_to_blocks(snow_plane_map *map, const snow_halo *halo, company
         int64_t first = at_least(near.first_row, 8 * y);
         int64_t last = at_most(near.last_row, 8 * y + 7);
         for (int64_t x = near.first_column / 8; x <= near.last_column / 8; x++)
-            lower_rows(map, page_of(map, x, y), (int)(first - 8 * y), (int)(last - 8 * y), halo,
-                       (int)(8 * x - i - halo->first), (int)(first - j - halo->first));
+            if (lower_rows(page_of(map, x, y), (int)(first - 8 * y), (int)(last - 8 * y), halo,
+                           (int)(8 * x - i - halo->first), (int)(first - j - halo->first)))
+                stamp(map, tile_at(map, x, y));
     }
 }
 
@@ -289,7 +303,7 @@ static void set_tile_class(snow_plane_map *map, size_t tile, uint8_t class)
     map->tile_class[tile] = class;
     if (!SNOW_MAP_GET(map->tile[tile])->is_shared)
         return;
-    map->far[class].changed = map->landing;
+    stamp(map, tile);
     SNOW_MAP_PUT_ADDRESS(map->tile[tile], &map->far[class]);
 }
 

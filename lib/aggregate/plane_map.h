@@ -45,7 +45,6 @@ typedef struct snow_plane_page {
         _Atomic uint64_t near_row[8];
     };
     snow_plane_line *_Atomic line[4]; /* never NULL: where nothing is near they share one */
-    uint64_t changed;                 /* what this page says: last, by the landing of this number */
     bool is_shared;                   /* by tiles that have none of their own */
 } snow_plane_page;
 
@@ -60,6 +59,7 @@ typedef struct snow_plane_map {
     uint32_t width, height; /* of the box, sites */
     snow_plane_page *_Atomic *tile;
     uint8_t *tile_class;
+    uint32_t *changed; /* what is known of each tile: last by the landing of this number (its last 32 bits) */
     snow_plane_page far[SNOW_EXIT_CLASSES]; /* for tiles of this class */
     snow_pool pages;
     snow_pool lines; /* with matter, if that is kept */
@@ -100,15 +100,24 @@ static inline const snow_plane_page *snow_plane_map_find(const snow_plane_map *m
     return inside ? page : &map->outside;
 }
 
+/* Whether an answer there may have changed since that landing, one of the last 2^31. */
+static inline bool snow_plane_map_has_changed(const snow_plane_map *map, int32_t x, int32_t y, uint64_t since)
+{
+    uint32_t u = (uint32_t)x - (uint32_t)map->box.x;
+    uint32_t v = (uint32_t)y - (uint32_t)map->box.y;
+    return u < map->width && v < map->height &&
+           (int32_t)(map->changed[(size_t)(v / 32) * map->box.columns + u / 32] - (uint32_t)since) > 0;
+}
+
 /* 0: special; else a class; SNOW_MAP_BEYOND. */
-static inline snow_map_answer snow_plane_page_look(const snow_plane_page *page, int32_t x, int32_t y)
+static inline uint32_t snow_plane_page_look(const snow_plane_page *page, int32_t x, int32_t y)
 {
     uint32_t u = (uint32_t)x; /* boxes begin at multiples of 32 */
     uint32_t v = (uint32_t)y;
     uint32_t near = SNOW_MAP_GET(page->near[v / 4 % 8 * 8 + u / 4 % 8]);
     const snow_plane_line *line = SNOW_MAP_GET_ADDRESS(page->line[v / 16 % 2 * 2 + u / 16 % 2]);
     uint32_t exact = ~SNOW_MAP_GET(line->row[v % 16]) >> (u % 16 * 2) & 3;
-    return (snow_map_answer){near > exact ? near : exact, &page->changed}; /* neither is more than what is free */
+    return near > exact ? near : exact; /* neither is more than what is free */
 }
 
 /* What is on a site; only where matter is kept. */
