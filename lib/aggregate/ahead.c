@@ -27,14 +27,16 @@ snow_status snow_ahead_start(snow_ahead *ahead, snow_heap *heap, int threads, bo
     size_t rings = (size_t)threads * (size_t)squads;
     ahead->voyage = snow_heap_get(heap, window, sizeof *ahead->voyage);
     ahead->party = snow_heap_get(heap, (size_t)threads, sizeof *ahead->party);
-    ahead->rows = snow_heap_get_raw(heap, rings * room, sizeof *ahead->rows);
-    if (ahead->voyage == NULL || ahead->party == NULL || ahead->rows == NULL) {
+    ahead->rows = snow_heap_get(heap, rings * room, sizeof *ahead->rows);
+    ahead->heights = space ? snow_heap_get(heap, rings * room, sizeof *ahead->heights) : NULL;
+    if (ahead->voyage == NULL || ahead->party == NULL || ahead->rows == NULL || (space && ahead->heights == NULL)) {
         snow_ahead_end(ahead, heap);
         return heap->refusal;
     }
     for (size_t i = 0; i < rings; i++) {
         snow_squad *squad = &ahead->party[i / (size_t)squads].squad[i % (size_t)squads];
         squad->rows = ahead->rows + i * room;
+        squad->heights = space ? ahead->heights + i * room : NULL;
         squad->room = room;
     }
     atomic_flag_clear(&ahead->settling);
@@ -47,9 +49,11 @@ snow_status snow_ahead_start(snow_ahead *ahead, snow_heap *heap, int threads, bo
 
 void snow_ahead_end(snow_ahead *ahead, snow_heap *heap)
 {
+    snow_heap_put(heap, ahead->heights);
     snow_heap_put(heap, ahead->rows);
     snow_heap_put(heap, ahead->party);
     snow_heap_put(heap, ahead->voyage);
+    ahead->heights = NULL;
     ahead->rows = NULL;
     ahead->party = NULL;
     ahead->voyage = NULL;
@@ -190,8 +194,8 @@ static void correct(snow_ahead *ahead, snow_voyage *voyage)
 {
     if (voyage->settled == voyage->walker)
         return;
-    uint32_t row = snow_squad_outdated(ahead->ground, voyage->squad, voyage->lane, voyage->first, voyage->end,
-                                       voyage->settled);
+    uint32_t row = ahead->ground->outdated(ahead->ground, voyage->squad, voyage->lane, voyage->first, voyage->end,
+                                           voyage->settled);
     if (row == voyage->end)
         return;
     ahead->repeats++;

@@ -164,8 +164,8 @@ typedef struct question {
     pair pick, exit;
 } question;
 
-/* What follows is snow_plane_map_find() and snow_plane_page_look(). */
-INLINE void find_page(const snow_plane_map *map, question *q)
+/* What follows is snow_plane_map_find() and snow_plane_page_look(). The number of the tile: */
+INLINE lanes find_tile(const snow_plane_map *map, question *q)
 {
     lanes u = _mm256_sub_epi32(q->x, all((uint32_t)map->box.x));
     lanes v = _mm256_sub_epi32(q->y, all((uint32_t)map->box.y));
@@ -176,8 +176,12 @@ INLINE void find_page(const snow_plane_map *map, question *q)
     q->v = _mm256_and_si256(v, q->inside);
     /* Row and column in the halves of a lane. */
     lanes place = _mm256_blend_epi16(_mm256_srli_epi32(q->v, 5), _mm256_slli_epi32(q->u, 11), 0xAA);
-    lanes tile = _mm256_madd_epi16(place, all(map->box.columns | 1u << 16));
-    q->page = fetch_from((const void *)map->tile, apart_clean(tile));
+    return _mm256_madd_epi16(place, all(map->box.columns | 1u << 16));
+}
+
+INLINE void find_page(const snow_plane_map *map, question *q)
+{
+    q->page = fetch_from((const void *)map->tile, apart_clean(find_tile(map, q)));
 }
 
 INLINE void look_near(question *q)
@@ -381,4 +385,32 @@ void snow_squads_walk_avx2(const snow_ground *ground, snow_squad *squads, int co
         walk_together(ground, true, squads, count);
     else
         walk_together(ground, false, squads, count);
+}
+
+/* Eight rows of a column at a time: which of them may have changed. */
+INLINE uint32_t find_changed(const snow_ground *ground, const snow_squad *squad, int lane, uint32_t first, uint32_t since)
+{
+    enum { ROW = sizeof(snow_row) / sizeof(int32_t) };
+    const lanes eight = _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7);
+    lanes row = _mm256_and_si256(_mm256_add_epi32(all(first), eight), all(squad->room - 1));
+    lanes at = _mm256_mullo_epi32(row, all(ROW));
+    question q = {.x = _mm256_i32gather_epi32(squad->rows->x + lane, at, 4),
+                  .y = _mm256_i32gather_epi32(squad->rows->y + lane, at, 4)};
+    lanes tile = find_tile(&ground->plane, &q);
+    lanes changed = _mm256_i32gather_epi32((const int *)ground->plane.changed, tile, 4);
+    lanes is_newer = _mm256_cmpgt_epi32(_mm256_sub_epi32(changed, all(since)), _mm256_setzero_si256());
+    return (uint32_t)_mm256_movemask_ps(_mm256_castsi256_ps(_mm256_and_si256(is_newer, q.inside)));
+}
+
+uint32_t snow_squad_outdated_avx2(const snow_ground *ground, const snow_squad *squad, int lane, uint32_t first,
+                                  uint32_t end, uint64_t since)
+{
+    for (uint32_t row = first; row - first < end - first; row += 8) {
+        uint32_t changed = find_changed(ground, squad, lane, row, (uint32_t)since);
+        for (uint32_t i = 0; changed >> i != 0; i++)
+            if ((changed >> i & 1) != 0 && row + i - first < end - first &&
+                snow_squad_is_outdated(ground, squad, lane, row + i))
+                return row + i;
+    }
+    return end;
 }
