@@ -148,7 +148,7 @@ static void finish(const snow_ahead *ahead, snow_party *own, int i, int lane)
     snow_voyage *voyage = own->voyage[i][lane];
     voyage->end = own->squad[i].next;
     voyage->stay = snow_squad_leave(ahead->ground, &own->squad[i], lane);
-    atomic_store(&voyage->done, voyage->walker + 1);
+    atomic_store_explicit(&voyage->done, voyage->walker + 1, memory_order_release);
 }
 
 /* Those who have landed, and one whose diary has filled the ring. */
@@ -221,7 +221,7 @@ static void settle_one(snow_ahead *ahead, snow_voyage *voyage, uint64_t walker)
 {
     snow_site site = arrive(ahead, voyage);
     bool goes_on = ahead->land(ahead->context, walker, site);
-    atomic_store(&ahead->settled, walker + 1);
+    atomic_store_explicit(&ahead->settled, walker + 1, memory_order_release);
     if (!goes_on)
         atomic_store(&ahead->ended, true);
 }
@@ -244,7 +244,7 @@ static void settle(snow_ahead *ahead)
             break;
         settle_one(ahead, voyage, walker);
     }
-    atomic_flag_clear(&ahead->settling);
+    atomic_flag_clear_explicit(&ahead->settling, memory_order_release);
 }
 
 static SNOW_APART void work(snow_ahead *ahead, snow_party *own)
