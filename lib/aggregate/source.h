@@ -30,8 +30,8 @@ typedef struct snow_source_of_walkers {
     int32_t width, depth, lid; /* of a vessel; width 0: none, walkers come from all around; lid negative: none */
     int32_t rim;               /* all special sites are nearer to the origin, or lower, than this */
     int32_t reach;             /* the same in lattice distance */
-    int64_t far;               /* beyond this a walker is sent back */
-    int64_t safe;              /* one that is no more than this clear of the cluster, in lattice distance, is not */
+    int64_t far;               /* beyond this, in lattice distance, a walker is sent back */
+    int64_t safe;              /* so far it is from `reach` to there */
 } snow_source_of_walkers;
 
 /* Sets the distances for a cluster whose filled sites lie at squared distances
@@ -39,13 +39,12 @@ typedef struct snow_source_of_walkers {
    of about one percent, so that most particles do not change them. */
 void snow_source_fit(snow_source_of_walkers *source, int64_t farthest);
 
+/* These begin and end with a block of numbers. */
+
 /* A walker from infinity. */
 snow_site snow_source_launch(const snow_source_of_walkers *source, snow_draws *draws);
 
-/* Whether a walker is beyond `far`. */
-bool snow_source_is_beyond(const snow_source_of_walkers *source, snow_site site);
-
-/* Sends back one that is: where it comes in again. */
+/* Sends back a walker that is beyond `far`: where it comes in again. */
 snow_site snow_source_return(const snow_source_of_walkers *source, snow_site site, snow_draws *draws);
 
 /* Hexagonal lattice: from the middle of an empty hexagon to a site of a blurred

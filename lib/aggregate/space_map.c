@@ -213,7 +213,6 @@ static snow_space_page *page_with(snow_space_map *map, int64_t i, int64_t j, int
     snow_space_page *page = SNOW_MAP_GET(*entry);
     if (distance_of(map, page) == 0)
         return page;
-    page->changed = map->landing;
     page = snow_pool_take(&map->pages);
     start_page(page, map->near[NEAR_REACH + 1], map->landing);
     SNOW_MAP_PUT_ADDRESS(*entry, page);
@@ -308,7 +307,7 @@ static void spread_tile(snow_space_map *map, int64_t i, int64_t j, int64_t k)
                 uintptr_t d = (uintptr_t)apart(x - i, y - j, z - k);
                 if (d >= distance_of(map, page))
                     continue;
-                page->changed = map->landing;
+                map->far[d].changed = map->landing;
                 SNOW_MAP_PUT_ADDRESS(*entry, &map->far[d]);
             }
         }
