@@ -14,9 +14,13 @@ void snow_squads_choose(snow_ground *ground, snow_isa isa)
     ground->walk = snow_squads_walk_in_turn;
     ground->outdated = snow_squad_outdated;
 #ifdef SNOW_HAVE_X86_KERNELS
-    if ((isa == SNOW_ISA_AVX2 || isa == SNOW_ISA_AVX512) && is_for_lanes(ground)) {
+    if (is_for_lanes(ground) && isa == SNOW_ISA_AVX2) {
         ground->walk = snow_squads_walk_avx2;
         ground->outdated = snow_squad_outdated_avx2;
+    }
+    if (is_for_lanes(ground) && isa == SNOW_ISA_AVX512) {
+        ground->walk = snow_squads_walk_avx512;
+        ground->outdated = snow_squad_outdated_avx512;
     }
 #else
     (void)isa;

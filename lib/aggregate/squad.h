@@ -60,6 +60,7 @@ static inline snow_heights *snow_squad_heights(const snow_squad *squad, uint32_t
 void snow_squads_choose(snow_ground *ground, snow_isa isa);
 void snow_squads_walk_in_turn(const snow_ground *ground, snow_squad *squads, int count);
 void snow_squads_walk_avx2(const snow_ground *ground, snow_squad *squads, int count);
+void snow_squads_walk_avx512(const snow_ground *ground, snow_squad *squads, int count);
 
 /* For lanes, when in some the walker has stood still for a row: those that have landed
    are marked, others are helped with what takes whole blocks of numbers. */
@@ -80,6 +81,8 @@ uint32_t snow_squad_outdated(const snow_ground *ground, const snow_squad *squad,
                              uint64_t since);
 uint32_t snow_squad_outdated_avx2(const snow_ground *ground, const snow_squad *squad, int lane, uint32_t first,
                                   uint32_t end, uint64_t since);
+uint32_t snow_squad_outdated_avx512(const snow_ground *ground, const snow_squad *squad, int lane, uint32_t first,
+                                    uint32_t end, uint64_t since);
 
 /* One row. */
 bool snow_squad_is_outdated(const snow_ground *ground, const snow_squad *squad, int lane, uint32_t row);
