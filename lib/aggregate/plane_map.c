@@ -328,7 +328,8 @@ static void spread_to_tiles(snow_plane_map *map, const snow_halo *halo, company 
     part near = clip(part_of(halo, beside, i, j), map->box.columns, map->box.rows);
     for (int64_t row = near.first_row; row <= near.last_row; row++) {
         int y = (int)(row - j - halo->first);
-        for (int64_t column = near.first_column / SNOW_HALO_GROUP * SNOW_HALO_GROUP; column <= near.last_column; column += SNOW_HALO_GROUP) {
+        int64_t first = near.first_column / SNOW_HALO_GROUP * SNOW_HALO_GROUP;
+        for (int64_t column = first; column <= near.last_column; column += SNOW_HALO_GROUP) {
             int x = (int)(column - i - halo->first);
             size_t tile = (size_t)row * map->box.columns + (size_t)column;
             uint64_t known = snow_halo_group(&map->tile_class[tile]);
@@ -448,7 +449,8 @@ static void add_prints(snow_plane_map *map, int64_t u, int64_t v)
             continue;
         for (int64_t first = least; first <= most; first = first - first % 16 + 16) {
             int64_t last = at_most(first - first % 16 + 15, most);
-            add_print(map, (uint32_t)column, (uint32_t)first, (uint32_t)last, print + 3 * (first - v + SITE_REACH) + word);
+            add_print(map, (uint32_t)column, (uint32_t)first, (uint32_t)last,
+                      print + 3 * (first - v + SITE_REACH) + word);
         }
     }
 }
