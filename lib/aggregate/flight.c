@@ -219,6 +219,13 @@ COPIED snow_site leave(const snow_ground *ground, manner how, snow_site site, ui
     return how.in_vessel ? fold(&ground->source, how.lattice, site) : site;
 }
 
+/* From the middle of the ball that is free. */
+COPIED snow_site leave_ball(const snow_source_of_walkers *source, manner how, snow_site site, snow_draws *draws)
+{
+    site = snow_source_sphere(site, snow_source_clear_ball(source, site), draws);
+    return how.in_vessel ? fold(source, how.lattice, site) : site;
+}
+
 static bool is_outside(const snow_ground *ground, manner how, snow_site site)
 {
     if (how.lattice == SNOW_AGGREGATE_CUBIC)
@@ -234,6 +241,8 @@ COPIED snow_site come_in(const snow_ground *ground, manner how, snow_site site, 
         int64_t clear = clear_of(source, how.lattice, site);
         if (RARE(clear > source->safe) && snow_source_is_beyond(source, site))
             site = snow_source_return(source, site, draws);
+        else if (how.lattice == SNOW_AGGREGATE_CUBIC && snow_source_clear_ball(source, site) >= SNOW_SOURCE_LEAST_BALL)
+            site = leave_ball(source, how, site, draws);
         else
             site = leave(ground, how, site, (uint32_t)snow_exits_class(&ground->exits, clear), draws);
     } while (is_outside(ground, how, site));

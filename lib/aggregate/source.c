@@ -238,6 +238,37 @@ snow_site snow_source_return(const snow_source_of_walkers *source, snow_site sit
     return site_at(source->lattice, return_to_sphere(radius, from, distance, draws));
 }
 
+double snow_source_clear_ball(const snow_source_of_walkers *source, snow_site site)
+{
+    if (source->width > 0)
+        return site.z - source->reach;
+    return sqrt(squared(point_of(source->lattice, site))) - source->rim;
+}
+
+/* By rejection; hardly any is rejected. */
+static point unit_sphere_of_lattice(double radius, snow_draws *draws)
+{
+    double tilt = 21 / (4 * radius * radius);
+    for (;;) {
+        point unit = unit_sphere(draws);
+        double level = snow_draws_uniform(draws) * (1 + tilt);
+        double x = unit.x * unit.x;
+        double y = unit.y * unit.y;
+        double z = unit.z * unit.z;
+        if (level < 1 - tilt || level < 1 + tilt * (2.5 * (x * x + y * y + z * z) - 1.5))
+            return unit;
+    }
+}
+
+snow_site snow_source_sphere(snow_site site, double ball, snow_draws *draws)
+{
+    double inside = ball - 1 - blur(draws) * 0.5;
+    point unit = unit_sphere_of_lattice(inside, draws);
+    point from = point_of(SNOW_AGGREGATE_CUBIC, site);
+    return site_at(SNOW_AGGREGATE_CUBIC,
+                   (point){from.x + inside * unit.x, from.y + inside * unit.y, from.z + inside * unit.z});
+}
+
 snow_site snow_source_circle(snow_site site, int32_t radius, snow_draws *draws)
 {
     double inside = radius * HALF_SQRT_3 - 2 - blur(draws);

@@ -53,4 +53,18 @@ snow_site snow_source_return(const snow_source_of_walkers *source, snow_site sit
    cos(6 phi)/r^4 there: less than 10^-9 for the radii used, 257 and more. */
 snow_site snow_source_circle(snow_site site, int32_t radius, snow_draws *draws);
 
+/* The radius of the ball round a walker outside the map that is free. */
+double snow_source_clear_ball(const snow_source_of_walkers *source, snow_site site);
+
+enum { SNOW_SOURCE_LEAST_BALL = 420 };
+
+/* Cubic lattice: from the middle of an empty ball to a site of a blurred sphere
+   inside. A measure has the potential of its middle, as seen from outside, if the
+   mean of each polynomial that is harmonic for the lattice's walk is the value
+   there. x^4 + y^4 + z^4 - 3 (x^2 y^2 + y^2 z^2 + z^2 x^2) - r^2 is the first one
+   whose mean over a sphere is not: so the density is not constant, but
+   1 + 21/(4 r^2) (5 (x^4 + y^4 + z^4)/r^4 - 3)/2. What is left is of sixth and
+   eighth degree, less than 15/r^4 of the density: 10^-9 for the radii used. */
+snow_site snow_source_sphere(snow_site site, double ball, snow_draws *draws);
+
 #endif
