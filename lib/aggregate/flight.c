@@ -30,6 +30,21 @@ static const int side_r[6] = {1, 0, -1, -1, 0, 1};
 static const int32_t image_of_square[8][4] = {{1, 0, 0, 1},  {-1, 0, 0, 1},  {1, 0, 0, -1},  {-1, 0, 0, -1},
                                               {0, 1, 1, 0},  {0, 1, -1, 0},  {0, -1, 1, 0},  {0, -1, -1, 0}};
 
+/* The 48 symmetries of a cube: what one step across a face, and one along each
+   offset on it, add to three numbers of 16 bits each. */
+#define X INT64_C(0x1)
+#define Y INT64_C(0x10000)
+#define Z INT64_C(0x100000000)
+#define FACE(across, a, b)                                                                            \
+    {across, a, b}, {across, -(a), b}, {across, a, -(b)}, {across, -(a), -(b)},                       \
+    {across, b, a}, {across, -(b), a}, {across, b, -(a)}, {across, -(b), -(a)}
+static const int64_t image_of_cube[48][3] = {FACE(X, Y, Z),  FACE(-X, Y, Z), FACE(Y, X, Z),
+                                             FACE(-Y, X, Z), FACE(Z, X, Y),  FACE(-Z, X, Y)};
+#undef X
+#undef Y
+#undef Z
+#undef FACE
+
 COPIED int ways(snow_aggregate_lattice lattice)
 {
     return lattice == SNOW_AGGREGATE_SQUARE ? 4 : 6;
@@ -122,18 +137,12 @@ COPIED snow_site jump(const snow_exit *exit, int32_t radius, snow_aggregate_latt
         site.y += radius * corner_r[side] + offset * side_r[side];
         return site;
     }
-    int32_t mirror_a = -(int32_t)(low >> 31);
-    int32_t mirror_b = -(int32_t)(low >> 30 & 1);
-    int32_t swap = -(int32_t)(low >> 29 & 1);
-    int32_t a = ((offset >> 8) ^ mirror_a) - mirror_a;
-    int32_t b = ((offset & 255) ^ mirror_b) - mirror_b;
-    swap &= a ^ b;
-    a ^= swap;
-    b ^= swap;
-    int32_t across = side % 2 == 0 ? radius : -radius;
-    site.x += side / 2 == 0 ? across : a;
-    site.y += side / 2 == 1 ? across : side / 2 == 0 ? a : b;
-    site.z += side / 2 == 2 ? across : b;
+    const int64_t *image = image_of_cube[8 * side + (low >> 29)];
+    int64_t sum = image[0] * radius + image[1] * (offset >> 8) + image[2] * (offset & 255);
+    uint64_t shifted = (uint64_t)sum + UINT64_C(0x800080008000);
+    site.x += (int32_t)(shifted & 0xFFFF) - 0x8000;
+    site.y += (int32_t)(shifted >> 16 & 0xFFFF) - 0x8000;
+    site.z += (int32_t)(shifted >> 32 & 0xFFFF) - 0x8000;
     return site;
 }
 

@@ -8,13 +8,10 @@ enum {
     FAR_REACH = SNOW_SPACE_FAR,
     CUBES_REACH = SNOW_SPACE_CUBES,
     SIDES = SNOW_SPACE_SIDES,
-    PAIRS = SNOW_SPACE_PAIRS
+    PAIRS = SNOW_SPACE_PAIRS,
+    ROWS = SNOW_SPACE_ROWS,
+    UNKNOWN = (LINES_REACH + 1) << 8 /* of a pair that is further away */
 };
-
-#define ALL_LANES ((snow_lanes)-1)
-#define EACH_BYTE (ALL_LANES / 255)
-#define EACH_PAIR (ALL_LANES / 65535)
-#define LANES_OF(array) ((int)(sizeof(array) / sizeof(snow_lanes)))
 
 static int64_t magnitude(int64_t x)
 {
@@ -49,7 +46,7 @@ static int64_t distance_to_contact(int64_t x, int64_t y, int64_t z)
 }
 
 /* What a line says of a pair, where the filled site lies so far from the pair's first one. */
-static uint16_t print_of_pair(int64_t x, int64_t y, int64_t z)
+static int16_t print_of_pair(int64_t x, int64_t y, int64_t z)
 {
     int64_t distance[8];
     int64_t least = LINES_REACH + 1;
@@ -57,59 +54,80 @@ static uint16_t print_of_pair(int64_t x, int64_t y, int64_t z)
         distance[site] = distance_to_contact(x - site % 2, y - site / 2 % 2, z - site / 4);
         least = at_most(least, distance[site]);
     }
-    uint16_t print = (uint16_t)(least << 8);
+    int print = (int)least << 8;
     for (int site = 0; site < 8 && least <= LINES_REACH; site++)
-        print |= (uint16_t)((distance[site] > least) << site);
-    return print;
+        print |= (distance[site] > least) << site;
+    return (int16_t)print;
 }
 
 static void make_print(snow_space_print *print, int place)
 {
-    int x = place % 8;
-    int y = place / 8 % 2;
-    int z = place / 16;
-    for (int k = 0; k < PAIRS; k++)
-        for (int j = 0; j < PAIRS; j++)
-            for (int i = 0; i < 4 * SNOW_SPACE_LINES; i++)
-                print->row[k][j][i / 4].pair[i % 4] =
-                    print_of_pair(x - 2 * (i - 4), y - 2 * (j - PAIRS / 2), z - 2 * (k - PAIRS / 2));
+    for (int line = 0; line < SNOW_SPACE_LINES; line++) {
+        for (int layer = 0; layer < PAIRS; layer++) {
+            for (int row = 0; row < ROWS; row++) {
+                for (int i = 0; i < 4; i++) {
+                    int x = place % 8 - 2 * (4 * (line - 1) + i);
+                    int y = place / 8 % 2 - 2 * (row - ROWS / 2);
+                    int z = place / 16 - 2 * (layer - PAIRS / 2);
+                    print->pair[line][layer][row][i] = print_of_pair(x, y, z);
+                }
+            }
+        }
+    }
 }
 
-/* All ones in each byte where a >= b; both are below 128. */
-static snow_lanes not_less(snow_lanes a, snow_lanes b)
+typedef uint8_t sixteen __attribute__((vector_size(16))); /* blocks of a layer of a page */
+typedef int16_t eight __attribute__((vector_size(16)));   /* pairs of two rows of a line */
+
+/* Nobody else writes, so all may be read as plain numbers. */
+static sixteen get_sixteen(const void *from)
 {
-    snow_lanes top = 128 * EACH_BYTE;
-    return (((a | top) - b) & top) / 128 * 255;
+    sixteen numbers;
+    memcpy(&numbers, from, sizeof numbers);
+    return numbers;
 }
 
-static snow_lanes lesser(snow_lanes a, snow_lanes b)
+static eight get_eight(const void *from)
 {
-    return a ^ ((a ^ b) & not_less(a, b));
+    eight numbers;
+    memcpy(&numbers, from, sizeof numbers);
+    return numbers;
 }
 
-static snow_lanes greater(snow_lanes a, snow_lanes b)
+/* Puts 16 bytes; whether that changes any. */
+static bool put(_Atomic uintptr_t *to, const void *bytes)
 {
-    return b ^ ((a ^ b) & not_less(a, b));
+    bool changes = false;
+    for (size_t i = 0; i < 16 / sizeof *to; i++) {
+        uintptr_t word;
+        memcpy(&word, (const char *)bytes + i * sizeof word, sizeof word);
+        if (word != SNOW_MAP_GET(to[i])) {
+            SNOW_MAP_PUT(to[i], word);
+            changes = true;
+        }
+    }
+    return changes;
 }
 
-static uint8_t greatest(snow_lanes a)
+static sixteen lesser(sixteen a, sixteen b)
 {
-    uint8_t most = 0;
-    for (; a != 0; a /= 256)
-        most = a % 256 > most ? (uint8_t)(a % 256) : most;
-    return most;
+    sixteen choose = (sixteen)(a < b);
+    return (a & choose) | (b & ~choose);
 }
 
-/* What is known of pairs, and a print besides. Where their least distances are equal, so are those of sites
-   that are so near to either; else the nearer one has it all, as distances differ by at most 1. */
-static snow_lanes nearer_pairs(snow_lanes known, snow_lanes print)
+static sixteen greater(sixteen a, sixteen b)
 {
-    snow_lanes top = 0x8000 * EACH_PAIR;
-    snow_lanes a = known >> 8 & 255 * EACH_PAIR;
-    snow_lanes b = print >> 8 & 255 * EACH_PAIR;
-    snow_lanes near = (((a | top) - b) & top) / 0x8000 * 0xFFFF;
-    snow_lanes far = (((b | top) - a) & top) / 0x8000 * 0xFFFF;
-    return (known & far & (print | ~near)) | (print & ~far);
+    sixteen choose = (sixteen)(a < b);
+    return (b & choose) | (a & ~choose);
+}
+
+/* Where the least distances of a pair are equal, so are those of the sites that are so near to either; else the
+   nearer one has it all: distances differ by at most 1. */
+static eight nearer(eight known, eight print)
+{
+    eight not_further = print <= (known | 255);
+    eight further = (print | 255) < known;
+    return (known & (print | ~not_further) & ~further) | (print & further);
 }
 
 static size_t tiles_of(snow_space_box box)
@@ -133,10 +151,11 @@ static size_t cube_index(const snow_space_box *box, int64_t column, int64_t row,
     return ((size_t)(layer / 4) * (box->rows / 4) + (size_t)(row / 4)) * (box->columns / 4) + (size_t)(column / 4);
 }
 
-static void start_page(snow_space_map *map, snow_space_page *page, uint8_t class, uint64_t landing)
+static void start_page(snow_space_map *map, snow_space_page *page, uint8_t class, int distance)
 {
-    page->changed = landing;
+    page->changed = map->landing;
     page->most = class;
+    page->distance = (uint8_t)distance;
     for (int i = 0; i < 64; i++)
         atomic_init(&page->near.block[i], class);
     for (int i = 0; i < 8; i++)
@@ -146,7 +165,7 @@ static void start_page(snow_space_map *map, snow_space_page *page, uint8_t class
 static void start_line(snow_space_line *line)
 {
     for (int i = 0; i < 64; i++)
-        atomic_init(&line->pair[i], (LINES_REACH + 1) << 8);
+        atomic_init(&line->pair[i], UNKNOWN);
 }
 
 static snow_status cover(snow_space_map *map, snow_heap *heap, snow_space_box box)
@@ -162,7 +181,7 @@ static snow_status cover(snow_space_map *map, snow_heap *heap, snow_space_box bo
     }
     memset(cube_distance, CUBES_REACH + 1, cubes_of(box));
     for (size_t i = 0; i < cubes_of(box); i++)
-        start_page(map, &cube[i], map->cube_class[CUBES_REACH + 1], 0);
+        start_page(map, &cube[i], map->cube_class[CUBES_REACH + 1], FAR_REACH + 1);
     for (uint32_t layer = 0; layer < box.layers; layer++)
         for (uint32_t row = 0; row < box.rows; row++)
             for (uint32_t column = 0; column < box.columns; column++)
@@ -181,14 +200,6 @@ static void uncover(const snow_space_map *map, snow_heap *heap)
     snow_heap_put(heap, map->tile);
 }
 
-/* How far the tile is that such a page stands for; 0: a page of its own. */
-static uintptr_t distance_of(const snow_space_map *map, const snow_space_page *page)
-{
-    uintptr_t far = ((uintptr_t)page - (uintptr_t)map->far) / sizeof *page;
-    uintptr_t cube = ((uintptr_t)page - (uintptr_t)map->cube) / sizeof *page;
-    return far <= FAR_REACH ? far : cube < cubes_of(map->box) ? FAR_REACH + 1 : 0;
-}
-
 static void make_near(snow_space_map *map)
 {
     for (int from = 0; from < 16; from++) {
@@ -196,7 +207,7 @@ static void make_near(snow_space_map *map)
             for (int place = 0; place < 16; place++) {
                 int i = place % 4 + 4 * (side % SIDES - SIDES / 2) - from % 4;
                 int j = place / 4 + 4 * (side / SIDES - SIDES / 2) - from / 4;
-                map->near_in_layer[from][side].block[place] = map->near[at_most(apart(i, j, 0), NEAR_REACH + 1)];
+                map->near_in_layer[from][side][place] = map->near[at_most(apart(i, j, 0), NEAR_REACH + 1)];
             }
         }
     }
@@ -213,7 +224,7 @@ static void make_classes(snow_space_map *map, const snow_exits *exits)
     for (int d = 0; d <= NEAR_REACH + 1; d++)
         map->near[d] = d < SNOW_SPACE_LOOK ? (uint8_t)d : class_of(exits, 4 * (d - 1));
     for (int d = 1; d <= FAR_REACH; d++)
-        start_page(map, &map->far[d], class_of(exits, 16 * (d - 1)), 0);
+        start_page(map, &map->far[d], class_of(exits, 16 * (d - 1)), d);
     for (int d = 0; d <= CUBES_REACH + 1; d++)
         map->cube_class[d] = class_of(exits, at_least(64 * (d - 1), 16 * FAR_REACH));
 }
@@ -269,11 +280,11 @@ static snow_space_page *page_with(snow_space_map *map, int64_t i, int64_t j, int
 {
     snow_space_page *_Atomic *entry = tile_at(map, i / 4, j / 4, k / 4);
     snow_space_page *page = SNOW_MAP_GET(*entry);
-    if (distance_of(map, page) == 0)
+    if (page->distance == 0)
         return page;
     page->changed = map->landing;
     page = snow_pool_take(&map->pages);
-    start_page(map, page, map->near[NEAR_REACH + 1], map->landing);
+    start_page(map, page, map->near[NEAR_REACH + 1], 0);
     SNOW_MAP_PUT_ADDRESS(*entry, page);
     return page;
 }
@@ -300,25 +311,22 @@ static range range_round(int64_t i, int64_t j, int64_t k, int64_t reach, const s
 
 /* A layer of 4 x 4 blocks at a time: numbers in a layer are known, and none is
    less than that of the layers. */
-static void lower_page(snow_space_map *map, snow_space_page *page, const snow_space_layer *near_in_layer,
-                       int64_t layers)
+static void lower_page(snow_space_map *map, snow_space_page *page, const uint8_t *near_in_layer, int64_t layers)
 {
-    enum { WORDS = LANES_OF(near_in_layer->lanes) };
-    snow_lanes lowers = 0;
-    snow_lanes most = 0;
+    sixteen in_layer = get_sixteen(near_in_layer);
+    sixteen most = {0};
+    bool lowers = false;
     for (int layer = 0; layer < 4; layer++) {
-        snow_lanes least = map->near[at_most(magnitude(layers + layer), NEAR_REACH + 1)] * EACH_BYTE;
-        for (int i = 0; i < WORDS; i++) {
-            _Atomic snow_lanes *near = &page->near.lanes[WORDS * layer + i];
-            snow_lanes known = SNOW_MAP_GET(*near);
-            snow_lanes now = lesser(known, greater(near_in_layer->lanes[i], least));
-            lowers |= known ^ now;
-            most = greater(most, now);
-            SNOW_MAP_PUT(*near, now);
-        }
+        _Atomic uintptr_t *near = page->near.word + 16 / sizeof *near * (size_t)layer;
+        sixteen least = (sixteen){0} + map->near[at_most(magnitude(layers + layer), NEAR_REACH + 1)];
+        sixteen now = lesser(get_sixteen((const void *)near), greater(in_layer, least));
+        most = greater(most, now);
+        lowers |= put(near, &now);
     }
-    page->most = greatest(most);
-    if (lowers != 0)
+    page->most = 0;
+    for (int i = 0; i < 16; i++)
+        page->most = most[i] > page->most ? most[i] : page->most;
+    if (lowers)
         page->changed = map->landing;
 }
 
@@ -342,7 +350,7 @@ static void spread_near(snow_space_map *map, int64_t i, int64_t j, int64_t k)
                 if (page->most <= map->near[d])
                     continue;
                 int64_t side = (y - j / 4 + SIDES / 2) * SIDES + x - i / 4 + SIDES / 2;
-                lower_page(map, page, &map->near_in_layer[j % 4 * 4 + i % 4][side], 4 * z - k);
+                lower_page(map, page, map->near_in_layer[j % 4 * 4 + i % 4][side], 4 * z - k);
             }
         }
     }
@@ -376,8 +384,8 @@ static void spread_tile(snow_space_map *map, int64_t i, int64_t j, int64_t k)
             for (int64_t x = all.first[0]; x <= all.last[0]; x++) {
                 snow_space_page *_Atomic *entry = tile_at(map, x, y, z);
                 snow_space_page *page = SNOW_MAP_GET(*entry);
-                uintptr_t d = (uintptr_t)apart(x - i, y - j, z - k);
-                if (d >= distance_of(map, page))
+                int64_t d = apart(x - i, y - j, z - k);
+                if (d >= page->distance)
                     continue;
                 page->changed = map->landing;
                 SNOW_MAP_PUT_ADDRESS(*entry, &map->far[d]);
@@ -395,7 +403,7 @@ static void spread_all_tiles(snow_space_map *map)
         for (int64_t y = 0; y < map->box.rows; y++) {
             for (int64_t x = 0; x < map->box.columns; x++) {
                 const snow_space_page *page = SNOW_MAP_GET(*tile_at(map, x, y, z));
-                if (distance_of(map, page) == 0 && holds_special(page))
+                if (page->distance == 0 && holds_special(page))
                     spread_tile(map, x, y, z);
             }
         }
@@ -415,7 +423,7 @@ snow_status snow_space_map_widen(snow_space_map *map, snow_heap *heap, snow_spac
         for (int64_t y = 0; y < old.box.rows; y++) {
             for (int64_t x = 0; x < old.box.columns; x++) {
                 snow_space_page *page = SNOW_MAP_GET(*tile_at(&old, x, y, z));
-                if (distance_of(&old, page) == 0)
+                if (page->distance == 0)
                     SNOW_MAP_PUT(*tile_at(map, x + shift_x, y + shift_y, z + shift_z), page);
             }
         }
@@ -461,31 +469,24 @@ static snow_space_line *line_with(snow_space_map *map, int64_t i, int64_t j, int
     return line;
 }
 
-/* A filled site's pair lies so many pairs before the first one of the line (i, j, k). */
-static void lower_line(snow_space_map *map, int64_t i, int64_t j, int64_t k, int rows, int layers, int side,
-                       const snow_space_print *print)
+/* A layer of 4 x 4 pairs at a time. The filled site's pair lies so many rows and layers before the first one of
+   the line (i, j, k). */
+static void lower_line(snow_space_map *map, int64_t i, int64_t j, int64_t k, int rows, int layers,
+                       const int16_t (*print)[ROWS][4])
 {
-    enum { WORDS = LANES_OF(print->row[0][0][0].lanes) };
     snow_space_line *line = line_with(map, i, j, k);
-    snow_lanes lowers = 0;
+    bool lowers = false;
     for (int layer = 0; layer < 4; layer++) {
         int down = layers + layer + PAIRS / 2;
         if (down < 0 || down >= PAIRS)
             continue;
-        for (int row = 0; row < 4; row++) {
-            int along = rows + row + PAIRS / 2;
-            if (along < 0 || along >= PAIRS)
-                continue;
-            for (int word = 0; word < WORDS; word++) {
-                _Atomic snow_lanes *lanes = &line->lanes[(4 * layer + row) * WORDS + word];
-                snow_lanes known = SNOW_MAP_GET(*lanes);
-                snow_lanes now = nearer_pairs(known, print->row[down][along][side].lanes[word]);
-                lowers |= known ^ now;
-                SNOW_MAP_PUT(*lanes, now);
-            }
+        for (int half = 0; half < 2; half++) {
+            _Atomic uintptr_t *pairs = line->word + 16 / sizeof *pairs * (size_t)(2 * layer + half);
+            eight now = nearer(get_eight((const void *)pairs), get_eight(print[down][rows + ROWS / 2 + 2 * half]));
+            lowers |= put(pairs, &now);
         }
     }
-    if (lowers != 0)
+    if (lowers)
         page_with(map, 2 * i, 2 * j, 2 * k)->changed = map->landing;
 }
 
@@ -511,7 +512,7 @@ void snow_space_map_add(snow_space_map *map, int32_t x, int32_t y, int32_t z, bo
         for (int64_t j = at_least(floor_of(v - REACH, 8), 0); j <= at_most(floor_of(v + REACH, 8), map->box.rows * 2 - 1); j++)
             for (int64_t i = at_least(floor_of(u - REACH, 8), 0); i <= at_most(floor_of(u + REACH, 8), map->box.columns * 2 - 1); i++)
                 lower_line(map, i, j, k, (int)(4 * j - floor_of(v, 2)), (int)(4 * k - floor_of(w, 2)),
-                           (int)(i - floor_of(u, 8) + 1), print);
+                           print->pair[i - floor_of(u, 8) + 1]);
     if (!map->keeps_matter || u < 0 || v < 0 || w < 0 ||
         !snow_space_map_has(map, (uint32_t)(u / 16), (uint32_t)(v / 16), (uint32_t)(w / 16)))
         return;

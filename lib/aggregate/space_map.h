@@ -21,14 +21,11 @@ enum {
     SNOW_SPACE_MARGIN = 36 /* of sites that are not special, on sides where the map may be widened */
 };
 
-/* Several small numbers that are changed at a time. */
-typedef uintptr_t snow_lanes;
-
 /* Of a pair of sites in each direction: the least distance times 256, and a bit
    for each site that is one further away. */
 typedef union snow_space_line {
     _Atomic uint16_t pair[64];
-    _Atomic snow_lanes lanes[128 / sizeof(snow_lanes)];
+    _Atomic uintptr_t word[128 / sizeof(uintptr_t)]; /* several at a time */
 } snow_space_line;
 
 typedef struct snow_space_matter {
@@ -37,19 +34,20 @@ typedef struct snow_space_matter {
     _Atomic uint32_t obstacle[8][2];
 } snow_space_matter;
 
-/* For each block of a page. */
-typedef union snow_space_near {
-    _Atomic uint8_t block[64]; /* below SNOW_SPACE_LOOK: so many blocks away, ask the line; else the class */
-    _Atomic snow_lanes lanes[64 / sizeof(snow_lanes)];
-} snow_space_near;
-
 enum { SNOW_SPACE_LOOK = 3 };
+
+/* For each block: below SNOW_SPACE_LOOK: so many blocks away, ask the line; else the class. */
+typedef union snow_space_near {
+    _Atomic uint8_t block[64];
+    _Atomic uintptr_t word[64 / sizeof(uintptr_t)];
+} snow_space_near;
 
 typedef struct snow_space_page {
     snow_space_near near;
     snow_space_line *_Atomic line[8]; /* never NULL: where nothing is near they share one */
     uint64_t changed;                 /* what this page says: last, by the landing of this number */
-    uint8_t most;                     /* the greatest number in near */
+    uint8_t most;                     /* nothing in near is greater */
+    uint8_t distance;                 /* of the tiles that share this page; 0: it is a tile's own */
 } snow_space_page;
 
 /* The sites that the map covers: whole cubes of tiles; x, y and z are multiples of 16. */
@@ -60,25 +58,14 @@ typedef struct snow_space_box {
 
 enum {
     SNOW_SPACE_SIDES = 2 * (SNOW_SPACE_NEAR / 4) + 1,        /* pages in a row that a block may change */
-    SNOW_SPACE_PAIRS = 2 * ((SNOW_SPACE_SITES + 2) / 2) + 1, /* pairs in a row that a filled site may change */
-    SNOW_SPACE_LINES = 3                                     /* lines in a row that it may change */
+    SNOW_SPACE_LINES = 3,                                    /* lines in a row that a filled site may change */
+    SNOW_SPACE_PAIRS = 2 * ((SNOW_SPACE_SITES + 2) / 2) + 1, /* rows of pairs that it may change, side by side */
+    SNOW_SPACE_ROWS = SNOW_SPACE_PAIRS + 6                   /* with those of whole lines */
 };
 
-/* What a block with a special site does to the blocks of a layer of a page. */
-typedef union snow_space_layer {
-    uint8_t block[16];
-    snow_lanes lanes[16 / sizeof(snow_lanes)];
-} snow_space_layer;
-
-/* What a filled site does to the pairs of a row of a line. */
-typedef union snow_space_row {
-    uint16_t pair[4];
-    snow_lanes lanes[8 / sizeof(snow_lanes)];
-} snow_space_row;
-
-/* What a filled site does to the rows round it. */
+/* What a filled site does to the pairs round it, in rows of a line each. */
 typedef struct snow_space_print {
-    snow_space_row row[SNOW_SPACE_PAIRS][SNOW_SPACE_PAIRS][SNOW_SPACE_LINES];
+    int16_t pair[SNOW_SPACE_LINES][SNOW_SPACE_PAIRS][SNOW_SPACE_ROWS][4];
 } snow_space_print;
 
 typedef struct snow_space_map {
@@ -92,7 +79,8 @@ typedef struct snow_space_map {
     snow_pool lines; /* with matter, if that is kept */
     bool keeps_matter;
     uint8_t near[SNOW_SPACE_NEAR + 2]; /* the number for each distance of blocks */
-    snow_space_layer near_in_layer[16][SNOW_SPACE_SIDES * SNOW_SPACE_SIDES]; /* by its place in a layer, and the page */
+    /* What a block with a special site does to a layer of a page: by its place in the layer, and the page. */
+    uint8_t near_in_layer[16][SNOW_SPACE_SIDES * SNOW_SPACE_SIDES][16];
     uint64_t landing;          /* for pages that change now */
     snow_space_page outside;   /* stands for all places where the map ends */
     snow_space_matter nothing; /* the line where nothing is near, and nothing is */
