@@ -94,19 +94,21 @@ static eight get_eight(const void *from)
     return numbers;
 }
 
-/* Puts 16 bytes; whether that changes any. */
-static bool put(_Atomic uintptr_t *to, const void *bytes)
+static void put(_Atomic uintptr_t *to, const void *sixteen_bytes)
 {
-    bool changes = false;
     for (size_t i = 0; i < 16 / sizeof *to; i++) {
         uintptr_t word;
-        memcpy(&word, (const char *)bytes + i * sizeof word, sizeof word);
-        if (word != SNOW_MAP_GET(to[i])) {
-            SNOW_MAP_PUT(to[i], word);
-            changes = true;
-        }
+        memcpy(&word, (const char *)sixteen_bytes + i * sizeof word, sizeof word);
+        SNOW_MAP_PUT(to[i], word);
     }
-    return changes;
+}
+
+/* Whether any of 16 bytes is not 0. */
+static bool has_any(const void *sixteen_bytes)
+{
+    uint64_t half[2];
+    memcpy(half, sixteen_bytes, sizeof half);
+    return (half[0] | half[1]) != 0;
 }
 
 static sixteen lesser(sixteen a, sixteen b)
@@ -309,25 +311,35 @@ static range range_round(int64_t i, int64_t j, int64_t k, int64_t reach, const s
                     at_most(k + reach, box->layers * parts / wholes - 1)}};
 }
 
+static uint8_t greatest(sixteen numbers)
+{
+    uint8_t most = 0;
+    for (int i = 0; i < 16; i++)
+        most = numbers[i] > most ? numbers[i] : most;
+    return most;
+}
+
 /* A layer of 4 x 4 blocks at a time: numbers in a layer are known, and none is
    less than that of the layers. */
 static void lower_page(snow_space_map *map, snow_space_page *page, const uint8_t *near_in_layer, int64_t layers)
 {
     sixteen in_layer = get_sixteen(near_in_layer);
     sixteen most = {0};
-    bool lowers = false;
+    sixteen lowers = {0};
+    sixteen now[4];
     for (int layer = 0; layer < 4; layer++) {
-        _Atomic uintptr_t *near = page->near.word + 16 / sizeof *near * (size_t)layer;
+        sixteen known = get_sixteen((const char *)&page->near + 16 * layer);
         sixteen least = (sixteen){0} + map->near[at_most(magnitude(layers + layer), NEAR_REACH + 1)];
-        sixteen now = lesser(get_sixteen((const void *)near), greater(in_layer, least));
-        most = greater(most, now);
-        lowers |= put(near, &now);
+        now[layer] = lesser(known, greater(in_layer, least));
+        most = greater(most, now[layer]);
+        lowers |= now[layer] ^ known;
     }
-    page->most = 0;
-    for (int i = 0; i < 16; i++)
-        page->most = most[i] > page->most ? most[i] : page->most;
-    if (lowers)
-        page->changed = map->landing;
+    if (!has_any(&lowers))
+        return;
+    for (size_t layer = 0; layer < 4; layer++)
+        put(page->near.word + layer * (16 / sizeof page->near.word[0]), &now[layer]);
+    page->most = greatest(most);
+    page->changed = map->landing;
 }
 
 /* How far a block is from the blocks of a tile, in one direction. */
@@ -469,25 +481,26 @@ static snow_space_line *line_with(snow_space_map *map, int64_t i, int64_t j, int
     return line;
 }
 
-/* A layer of 4 x 4 pairs at a time. The filled site's pair lies so many rows and layers before the first one of
-   the line (i, j, k). */
+/* Rows of 4 pairs, two at a time. The filled site's pair lies so many rows and layers before the first one of the
+   line (i, j, k). */
 static void lower_line(snow_space_map *map, int64_t i, int64_t j, int64_t k, int rows, int layers,
                        const int16_t (*print)[ROWS][4])
 {
     snow_space_line *line = line_with(map, i, j, k);
-    bool lowers = false;
-    for (int layer = 0; layer < 4; layer++) {
-        int down = layers + layer + PAIRS / 2;
-        if (down < 0 || down >= PAIRS)
-            continue;
-        for (int half = 0; half < 2; half++) {
-            _Atomic uintptr_t *pairs = line->word + 16 / sizeof *pairs * (size_t)(2 * layer + half);
-            eight now = nearer(get_eight((const void *)pairs), get_eight(print[down][rows + ROWS / 2 + 2 * half]));
-            lowers |= put(pairs, &now);
-        }
+    int first = 2 * (int)at_least(0, -PAIRS / 2 - layers);
+    int end = 2 * (int)at_most(4, PAIRS / 2 + 1 - layers);
+    eight lowers = {0};
+    eight now[8];
+    for (int n = first; n < end; n++) {
+        eight known = get_eight((const char *)line + 16 * n);
+        now[n] = nearer(known, get_eight(print[layers + n / 2 + PAIRS / 2][rows + n % 2 * 2 + ROWS / 2]));
+        lowers |= now[n] ^ known;
     }
-    if (lowers)
-        page_with(map, 2 * i, 2 * j, 2 * k)->changed = map->landing;
+    if (!has_any(&lowers))
+        return;
+    for (int n = first; n < end; n++)
+        put(line->word + (size_t)n * (16 / sizeof line->word[0]), &now[n]);
+    page_with(map, 2 * i, 2 * j, 2 * k)->changed = map->landing;
 }
 
 static int64_t floor_of(int64_t x, int64_t unit)
