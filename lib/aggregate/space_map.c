@@ -452,9 +452,15 @@ snow_status snow_space_map_reserve(snow_space_map *map, snow_heap *heap)
     return status == SNOW_OK ? snow_pool_reserve(&map->lines, heap, LINES) : status;
 }
 
+static bool is_covered(const snow_space_map *map, int64_t u, int64_t v, int64_t w)
+{
+    return u >= 0 && v >= 0 && w >= 0 &&
+           snow_space_map_has(map, (uint32_t)(u / 16), (uint32_t)(v / 16), (uint32_t)(w / 16));
+}
+
 static void add_special(snow_space_map *map, int64_t u, int64_t v, int64_t w)
 {
-    if (u < 0 || v < 0 || w < 0 || !snow_space_map_has(map, (uint32_t)(u / 16), (uint32_t)(v / 16), (uint32_t)(w / 16)))
+    if (!is_covered(map, u, v, w))
         return;
     int64_t i = u / 4;
     int64_t j = v / 4;
@@ -508,26 +514,43 @@ static int64_t floor_of(int64_t x, int64_t unit)
     return (x + unit * 16) / unit - 16; /* a floor lies at −1 */
 }
 
-void snow_space_map_add(snow_space_map *map, int32_t x, int32_t y, int32_t z, bool obstacle)
+/* The sites next to a filled one, and itself. */
+static void add_specials(snow_space_map *map, int64_t u, int64_t v, int64_t w)
 {
-    enum { REACH = LINES_REACH + 1 };
-    int64_t u = (int64_t)x - map->box.x;
-    int64_t v = (int64_t)y - map->box.y;
-    int64_t w = (int64_t)z - map->box.z;
     add_special(map, u, v, w);
     for (int step = -1; step <= 1; step += 2) {
         add_special(map, u + step, v, w);
         add_special(map, u, v + step, w);
         add_special(map, u, v, w + step);
     }
+}
+
+/* What lines say, those that a filled site may change. */
+static void lower_lines(snow_space_map *map, int64_t u, int64_t v, int64_t w)
+{
     const snow_space_print *print = &map->print[(w & 1) << 4 | (v & 1) << 3 | (u & 7)];
-    for (int64_t k = at_least(floor_of(w - REACH, 8), 0); k <= at_most(floor_of(w + REACH, 8), map->box.layers * 2 - 1); k++)
-        for (int64_t j = at_least(floor_of(v - REACH, 8), 0); j <= at_most(floor_of(v + REACH, 8), map->box.rows * 2 - 1); j++)
-            for (int64_t i = at_least(floor_of(u - REACH, 8), 0); i <= at_most(floor_of(u + REACH, 8), map->box.columns * 2 - 1); i++)
+    const int64_t place[3] = {u, v, w};
+    const int64_t lines[3] = {2 * (int64_t)map->box.columns, 2 * (int64_t)map->box.rows, 2 * (int64_t)map->box.layers};
+    range all;
+    for (int i = 0; i < 3; i++) {
+        all.first[i] = at_least(floor_of(place[i] - LINES_REACH - 1, 8), 0);
+        all.last[i] = at_most(floor_of(place[i] + LINES_REACH + 1, 8), lines[i] - 1);
+    }
+    for (int64_t k = all.first[2]; k <= all.last[2]; k++)
+        for (int64_t j = all.first[1]; j <= all.last[1]; j++)
+            for (int64_t i = all.first[0]; i <= all.last[0]; i++)
                 lower_line(map, i, j, k, (int)(4 * j - floor_of(v, 2)), (int)(4 * k - floor_of(w, 2)),
                            print->pair[i - floor_of(u, 8) + 1]);
-    if (!map->keeps_matter || u < 0 || v < 0 || w < 0 ||
-        !snow_space_map_has(map, (uint32_t)(u / 16), (uint32_t)(v / 16), (uint32_t)(w / 16)))
+}
+
+void snow_space_map_add(snow_space_map *map, int32_t x, int32_t y, int32_t z, bool obstacle)
+{
+    int64_t u = (int64_t)x - map->box.x;
+    int64_t v = (int64_t)y - map->box.y;
+    int64_t w = (int64_t)z - map->box.z;
+    add_specials(map, u, v, w);
+    lower_lines(map, u, v, w);
+    if (!map->keeps_matter || !is_covered(map, u, v, w))
         return;
     snow_space_matter *matter = (snow_space_matter *)line_with(map, u / 8, v / 8, w / 8);
     uint32_t octant = snow_space_octant((uint32_t)(u / 4), (uint32_t)(v / 4), (uint32_t)(w / 4));

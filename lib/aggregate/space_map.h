@@ -81,10 +81,10 @@ typedef struct snow_space_map {
     uint8_t near[SNOW_SPACE_NEAR + 2]; /* the number for each distance of blocks */
     /* What a block with a special site does to a layer of a page: by its place in the layer, and the page. */
     uint8_t near_in_layer[16][SNOW_SPACE_SIDES * SNOW_SPACE_SIDES][16];
+    snow_space_print *print;   /* by the place in a row of a line, and by parity in y and z */
     uint64_t landing;          /* for pages that change now */
     snow_space_page outside;   /* stands for all places where the map ends */
     snow_space_matter nothing; /* the line where nothing is near, and nothing is */
-    snow_space_print *print;   /* by the place in a row of a line, and by parity in y and z */
 } snow_space_map;
 
 snow_status snow_space_map_start(snow_space_map *map, snow_heap *heap, const snow_exits *exits, bool keeps_matter,
@@ -98,7 +98,8 @@ snow_status snow_space_map_widen(snow_space_map *map, snow_heap *heap, snow_spac
 snow_status snow_space_map_reserve(snow_space_map *map, snow_heap *heap);
 void snow_space_map_add(snow_space_map *map, int32_t x, int32_t y, int32_t z, bool obstacle);
 
-static inline const snow_space_page *snow_space_map_page(const snow_space_map *map, uint32_t column, uint32_t row, uint32_t layer)
+static inline const snow_space_page *snow_space_map_page(const snow_space_map *map, uint32_t column, uint32_t row,
+                                                         uint32_t layer)
 {
     return SNOW_MAP_GET_ADDRESS(map->tile[((size_t)layer * map->box.rows + row) * map->box.columns + column]);
 }
