@@ -118,7 +118,7 @@ class Panel:
         start = self.instruction_sets("double", "auto", DOUBLE, "folded", ABOVE if dry else RIGHT)
         self.tolerances(start, DOUBLE)
         self.instruction_sets("single", "none", SINGLE, "every cell, single", HIGHER if dry else BELOW)
-        self.instruction_sets("single", "auto", SINGLE, "folded, single", HIGHER if dry else RIGHT)
+        self.instruction_sets("single", "auto", SINGLE, "folded, single", RIGHT)
 
 
 def draw(scenes, picture):

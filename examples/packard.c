@@ -192,7 +192,7 @@ int main(int argc, char **argv)
                        "threads that share a step; 0: one a processor (1)"),
         OPTION_CHOICE("isa", isa_names, &self.options.isa, "instruction set (auto)"),
         OPTION_GROUP("The result"),
-        OPTION_TEXT("out", "FILE.png", &self.out, "where the picture goes; none: no picture"),
+        OPTION_TEXT("out", "FILE.png", &self.out, "write a picture there; without this option, none"),
         OPTION_CHOICE("palette", palette_names, &self.appearance.palette, "colours (frost)"),
         OPTION_INTEGER("size", "PIXELS", &self.appearance.size, 0, 65535, "longer side; 0: one pixel a cell (800)"),
         OPTION_INTEGER("samples", "COUNT", &self.appearance.samples, 1, 8, "samples along a pixel's side (3)"),

@@ -73,7 +73,7 @@ int main(int argc, char **argv)
         SCENE_ROWS(&it),
         RUN_ROWS(&it),
         OPTION_GROUP("The picture"),
-        OPTION_TEXT("out", "FILE.png", &names.out, "where the picture goes; none: no picture"),
+        OPTION_TEXT("out", "FILE.png", &names.out, "write a picture there; without this option, none"),
         OPTION_CHOICE("palette", palette_names, &appearance.palette, "colours (paper)"),
         OPTION_INTEGER("size", "PIXELS", &appearance.size, 0, 65535, "longer side; 0: one pixel a cell (800)"),
         OPTION_INTEGER("samples", "COUNT", &appearance.samples, 1, 8, "samples along a pixel's side (3)"),

@@ -44,7 +44,7 @@ typedef struct sheet {
 
 #define SHEET_ROWS(it, size, colours) \
     OPTION_GROUP("The picture"), \
-    OPTION_TEXT("out", "FILE.png", &(it)->out, "where the picture goes; none: no picture"), \
+    OPTION_TEXT("out", "FILE.png", &(it)->out, "write a picture there; without this option, none"), \
     OPTION_INTEGER("panel", "PIXELS", &(it)->panel_size, 16, 4096, "side of a panel (" size ")"), \
     OPTION_CHOICE("palette", palette_names, &(it)->palette, "colours (" colours ")"), \
     OPTION_INTEGER("threads", "COUNT", &(it)->threads, 0, 1024, "panels that grow at once; 0: one a processor (1)")

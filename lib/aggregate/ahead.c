@@ -8,39 +8,50 @@
 /* How often a thread that has to wait looks before it yields its processor. */
 enum { LOOKS_BEFORE_YIELD = 200 };
 
-/* A thread has so many walkers on their way; as many again may wait for those before them. */
-enum { ABREAST = 6, WALKERS_A_THREAD = 2 * ABREAST };
+/* So many rows of diaries; a walker that asks more waits for its turn to land. */
+enum { PLANE_ROWS = 256, SPACE_ROWS = 512 };
 
-/* Walkers with longer diaries wait for their turn to land. */
-enum { PLANE_QUESTIONS = 256, SPACE_QUESTIONS = 640 };
+/* So many walkers of a thread are on their way; so many more may have landed and wait for those before them. */
+enum { SQUADS = 2, WAITING = 24, ABREAST_IN_TURN = 6, WAITING_IN_TURN = 6 };
 
 snow_status snow_ahead_start(snow_ahead *ahead, snow_heap *heap, int threads, bool space)
 {
     if (ahead->window > 0)
         return SNOW_OK;
-    uint64_t window = (uint64_t)threads * WALKERS_A_THREAD;
-    uint32_t room = space ? SPACE_QUESTIONS : PLANE_QUESTIONS;
+    bool in_turn = ahead->ground->walk == snow_squads_walk_in_turn;
+    int squads = in_turn ? 1 : SQUADS;
+    int abreast = in_turn ? ABREAST_IN_TURN : SNOW_LANES;
+    int waiting = in_turn ? WAITING_IN_TURN : WAITING;
+    uint64_t window = (uint64_t)threads * (uint64_t)(squads * abreast + waiting);
+    uint32_t room = space ? SPACE_ROWS : PLANE_ROWS;
+    size_t rings = (size_t)threads * (size_t)squads;
     ahead->voyage = snow_heap_get(heap, window, sizeof *ahead->voyage);
-    ahead->questions = snow_heap_get_raw(heap, window, room * sizeof *ahead->questions);
-    if (ahead->voyage == NULL || ahead->questions == NULL) {
+    ahead->party = snow_heap_get(heap, (size_t)threads, sizeof *ahead->party);
+    ahead->rows = snow_heap_get_raw(heap, rings * room, sizeof *ahead->rows);
+    if (ahead->voyage == NULL || ahead->party == NULL || ahead->rows == NULL) {
         snow_ahead_end(ahead, heap);
         return heap->refusal;
     }
-    for (uint64_t i = 0; i < window; i++) {
-        ahead->voyage[i].flight.diary = ahead->questions + i * room;
-        ahead->voyage[i].flight.room = room;
+    for (size_t i = 0; i < rings; i++) {
+        snow_squad *squad = &ahead->party[i / (size_t)squads].squad[i % (size_t)squads];
+        squad->rows = ahead->rows + i * room;
+        squad->room = room;
     }
     atomic_flag_clear(&ahead->settling);
     ahead->window = window;
     ahead->threads = threads;
+    ahead->squads = squads;
+    ahead->abreast = abreast;
     return SNOW_OK;
 }
 
 void snow_ahead_end(snow_ahead *ahead, snow_heap *heap)
 {
-    snow_heap_put(heap, ahead->questions);
+    snow_heap_put(heap, ahead->rows);
+    snow_heap_put(heap, ahead->party);
     snow_heap_put(heap, ahead->voyage);
-    ahead->questions = NULL;
+    ahead->rows = NULL;
+    ahead->party = NULL;
     ahead->voyage = NULL;
     ahead->window = 0;
 }
@@ -74,13 +85,6 @@ void snow_ahead_extend(snow_ahead *ahead)
     atomic_fetch_add(&ahead->end, 1);
 }
 
-/* Those whom one thread walks. */
-typedef struct squad {
-    snow_voyage *voyage[ABREAST];
-    snow_flight *flight[ABREAST];
-    int count;
-} squad;
-
 /* The next number, unless too many are out. */
 static bool take(snow_ahead *ahead, uint64_t *walker)
 {
@@ -92,70 +96,127 @@ static bool take(snow_ahead *ahead, uint64_t *walker)
     return true;
 }
 
-static void set_out(snow_ahead *ahead, snow_voyage *voyage, uint64_t walker)
+static void set_out(snow_ahead *ahead, snow_party *own, int i, int lane, uint64_t walker)
 {
+    snow_voyage *voyage = &ahead->voyage[walker % ahead->window];
+    snow_squad *squad = &own->squad[i];
+    snow_queue *queue = &own->queue[i];
     voyage->walker = walker;
     voyage->settled = atomic_load(&ahead->settled);
     voyage->epoch = ahead->epoch;
-    snow_flight_start(ahead->ground, &voyage->flight, ahead->key, walker);
+    voyage->squad = squad;
+    voyage->lane = lane;
+    voyage->first = squad->next;
+    own->voyage[i][lane] = voyage;
+    queue->walker[queue->next % SNOW_QUEUE] = walker;
+    queue->first[queue->next++ % SNOW_QUEUE] = squad->next;
+    snow_flight_start(ahead->ground, &squad->flight[lane], ahead->key, walker);
+    snow_squad_enter(squad, lane);
 }
 
-static void fill_up(snow_ahead *ahead, squad *own)
+/* True: somebody walks. */
+static bool fill_up(snow_ahead *ahead, snow_party *own)
 {
-    uint64_t walker;
-    while (own->count < ABREAST && take(ahead, &walker)) {
-        snow_voyage *voyage = &ahead->voyage[walker % ahead->window];
-        set_out(ahead, voyage, walker);
-        own->voyage[own->count] = voyage;
-        own->flight[own->count++] = &voyage->flight;
+    uint32_t busy = 0;
+    for (int i = 0; i < ahead->squads; i++) {
+        uint64_t walker;
+        for (int lane = 0; lane < ahead->abreast; lane++)
+            if ((own->squad[i].busy >> lane & 1) == 0 && own->queue[i].next - own->queue[i].oldest < SNOW_QUEUE &&
+                take(ahead, &walker))
+                set_out(ahead, own, i, lane, walker);
+        busy |= own->squad[i].busy;
     }
+    return busy != 0;
 }
 
-static void walk_on(const snow_ahead *ahead, squad *own)
+/* Rows that nobody needs any more may be written anew. */
+static void free_rows(const snow_ahead *ahead, snow_squad *squad, snow_queue *queue)
 {
-    int i = snow_flight_share(ahead->ground, own->flight, own->count);
-    snow_voyage *voyage = own->voyage[i];
-    own->voyage[i] = own->voyage[--own->count];
-    own->flight[i] = own->flight[own->count];
+    uint64_t settled = atomic_load(&ahead->settled);
+    while (queue->oldest != queue->next && queue->walker[queue->oldest % SNOW_QUEUE] < settled)
+        queue->oldest++;
+    uint32_t needed = queue->oldest == queue->next ? squad->next : queue->first[queue->oldest % SNOW_QUEUE];
+    squad->stop = needed + squad->room;
+}
+
+static void finish(const snow_ahead *ahead, snow_party *own, int i, int lane)
+{
+    snow_voyage *voyage = own->voyage[i][lane];
+    voyage->end = own->squad[i].next;
+    voyage->stay = snow_squad_leave(ahead->ground, &own->squad[i], lane);
     atomic_store(&voyage->done, voyage->walker + 1);
 }
 
+/* Those who have landed, and one whose diary has filled the ring. */
+static bool finish_some(const snow_ahead *ahead, snow_party *own, int i)
+{
+    const snow_squad *squad = &own->squad[i];
+    const snow_queue *queue = &own->queue[i];
+    uint32_t ready = squad->landed & squad->busy;
+    if (squad->stop - squad->next < 2) {
+        uint64_t oldest = queue->walker[queue->oldest % SNOW_QUEUE];
+        for (int lane = 0; lane < SNOW_LANES; lane++)
+            if ((squad->busy >> lane & 1) != 0 && own->voyage[i][lane]->walker == oldest)
+                ready |= 1u << lane;
+    }
+    for (int lane = 0; lane < SNOW_LANES; lane++)
+        if ((ready >> lane & 1) != 0)
+            finish(ahead, own, i, lane);
+    return ready != 0;
+}
+
+static bool walk_on(const snow_ahead *ahead, snow_party *own)
+{
+    bool some = false;
+    for (int i = 0; i < ahead->squads; i++)
+        free_rows(ahead, &own->squad[i], &own->queue[i]);
+    ahead->ground->walk(ahead->ground, own->squad, ahead->squads);
+    for (int i = 0; i < ahead->squads; i++)
+        some |= finish_some(ahead, own, i);
+    return some;
+}
+
 /* False: it has to wait. */
-static bool walk(snow_ahead *ahead, squad *own)
+static bool walk(snow_ahead *ahead, snow_party *own)
 {
     atomic_fetch_add(&ahead->walking, 1);
-    bool may = !atomic_load(&ahead->paused);
-    if (may) {
-        fill_up(ahead, own);
-        may = own->count > 0;
-        if (may)
-            walk_on(ahead, own);
-    }
+    bool may = !atomic_load(&ahead->paused) && fill_up(ahead, own) && walk_on(ahead, own);
     atomic_fetch_sub(&ahead->walking, 1);
     return may;
 }
 
-/* Undoes what the walker would not have done on the cluster as it stands. */
+/* Back to where the walker did what it would not have done on the cluster as it stands. */
 static void correct(snow_ahead *ahead, snow_voyage *voyage)
+{
+    if (voyage->settled == voyage->walker)
+        return;
+    uint32_t row = snow_squad_outdated(ahead->ground, voyage->squad, voyage->lane, voyage->first, voyage->end,
+                                       voyage->settled);
+    if (row == voyage->end)
+        return;
+    ahead->repeats++;
+    voyage->stay = snow_squad_asked(voyage->squad, voyage->lane, row);
+}
+
+/* Where the walker lands on the cluster as it stands. */
+static snow_site arrive(snow_ahead *ahead, snow_voyage *voyage)
 {
     if (voyage->epoch != ahead->epoch) {
         ahead->repeats++;
-        snow_flight_start(ahead->ground, &voyage->flight, ahead->key, voyage->walker);
-    } else if (voyage->settled < voyage->walker) {
-        uint32_t outdated = snow_flight_outdated(ahead->ground, &voyage->flight, voyage->settled);
-        if (outdated < voyage->flight.asked) {
-            ahead->repeats++;
-            snow_flight_rewind(&voyage->flight, outdated);
-        }
+        snow_flight_start(ahead->ground, &ahead->flight, ahead->key, voyage->walker);
+        return snow_flight_finish(ahead->ground, &ahead->flight);
     }
+    correct(ahead, voyage);
+    if (voyage->stay.landed)
+        return voyage->stay.site;
+    snow_flight_resume(ahead->ground, &ahead->flight, ahead->key, voyage->walker, voyage->stay);
+    return snow_flight_finish(ahead->ground, &ahead->flight);
 }
 
 static void settle_one(snow_ahead *ahead, snow_voyage *voyage, uint64_t walker)
 {
-    snow_flight *flight = &voyage->flight;
-    correct(ahead, voyage);
-    snow_flight_finish(ahead->ground, flight);
-    bool goes_on = ahead->land(ahead->context, walker, (snow_site){flight->x, flight->y, flight->z});
+    snow_site site = arrive(ahead, voyage);
+    bool goes_on = ahead->land(ahead->context, walker, site);
     atomic_store(&ahead->settled, walker + 1);
     if (!goes_on)
         atomic_store(&ahead->ended, true);
@@ -182,29 +243,42 @@ static void settle(snow_ahead *ahead)
     atomic_flag_clear(&ahead->settling);
 }
 
-static SNOW_APART void work(snow_ahead *ahead)
+static SNOW_APART void work(snow_ahead *ahead, snow_party *own)
 {
-    squad own = {.count = 0};
     for (int looks = 0; !atomic_load(&ahead->ended);) {
         settle(ahead);
-        if (!atomic_load(&ahead->ended) && !walk(ahead, &own))
+        if (!atomic_load(&ahead->ended) && !walk(ahead, own))
             wait_a_little(&looks);
     }
 }
 
 static void task(void *argument, size_t index)
 {
-    (void)index;
+    snow_ahead *ahead = argument;
     snow_floating state;
     snow_floating_enter(&state);
-    work(argument);
+    work(ahead, &ahead->party[index]);
     snow_floating_leave(&state);
+}
+
+/* Nobody is out. */
+static void call_back(snow_ahead *ahead)
+{
+    for (uint64_t i = 0; i < ahead->window; i++)
+        atomic_store(&ahead->voyage[i].done, 0);
+    for (int thread = 0; thread < ahead->threads; thread++) {
+        snow_party *party = &ahead->party[thread];
+        for (int i = 0; i < ahead->squads; i++) {
+            party->squad[i].busy = 0;
+            party->squad[i].key = ahead->key;
+            party->queue[i].oldest = party->queue[i].next;
+        }
+    }
 }
 
 uint64_t snow_ahead_run(snow_ahead *ahead, snow_parallel_for loop, void *loop_context, uint64_t first, uint64_t count)
 {
-    for (uint64_t i = 0; i < ahead->window; i++)
-        atomic_store(&ahead->voyage[i].done, 0);
+    call_back(ahead);
     atomic_store(&ahead->end, first + count);
     atomic_store(&ahead->next, first);
     atomic_store(&ahead->settled, first);
@@ -212,6 +286,6 @@ uint64_t snow_ahead_run(snow_ahead *ahead, snow_parallel_for loop, void *loop_co
     if (ahead->threads > 1)
         loop(loop_context, (size_t)ahead->threads, task, ahead);
     else
-        work(ahead);
+        work(ahead, ahead->party);
     return atomic_load(&ahead->settled);
 }

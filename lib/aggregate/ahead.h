@@ -1,11 +1,10 @@
 /* Walkers on their way at the same time, against one cluster that grows meanwhile.
 
-   Each thread takes the next numbers and walks some of them in turn, a question
-   at a time: the processor then works on one while another waits for memory.
-   Each walker keeps a diary. Whoever finds nobody at it settles: walkers land in
-   their order, one thread at a time. One whose diary would read otherwise by
-   then goes back to the first answer that has changed and walks on from there.
-   So each has walked on the cluster that those before it have left, as one by one.
+   Each thread takes the next numbers and walks some of them abreast (squad.h).
+   Whoever finds nobody at it settles: walkers land in their order, one thread at
+   a time. One whose diary would read otherwise by then goes back to the first
+   answer that has changed and walks on from there. So each has walked on the
+   cluster that those before it have left, as one by one.
 
    Settling changes the map while others read it. They may read a mixture of old
    and new; then the diary does not hold. Only what moves in memory, or moves
@@ -13,7 +12,7 @@
 #ifndef SNOW_AGGREGATE_AHEAD_H
 #define SNOW_AGGREGATE_AHEAD_H
 
-#include "aggregate/flight.h"
+#include "aggregate/squad.h"
 
 #include <snowgrowth/options.h>
 
@@ -24,17 +23,40 @@ typedef struct snow_voyage {
     uint64_t walker;
     uint64_t settled; /* how many had landed when it set out */
     uint64_t epoch;
-    snow_flight flight;
+    /* Its diary: the rows from `first` to `end` of a lane. */
+    const snow_squad *squad;
+    int lane;
+    uint32_t first, end;
+    snow_stay stay; /* when it is done */
 } snow_voyage;
+
+enum { SNOW_QUEUE = 64 };
+
+/* A squad's walkers that have not landed yet, in their order. */
+typedef struct snow_queue {
+    uint64_t walker[SNOW_QUEUE];
+    uint32_t first[SNOW_QUEUE]; /* row of its diary */
+    uint32_t oldest, next;
+} snow_queue;
+
+/* Those whom one thread walks. */
+typedef struct snow_party {
+    snow_squad squad[SNOW_SQUADS];
+    snow_queue queue[SNOW_SQUADS];
+    snow_voyage *voyage[SNOW_SQUADS][SNOW_LANES];
+} snow_party;
 
 /* Lands a walker; true: it is not the last one. */
 typedef bool (*snow_landing)(void *context, uint64_t walker, snow_site site);
 
 typedef struct snow_ahead {
     snow_voyage *voyage; /* a ring */
-    snow_question *questions;
+    snow_row *rows;
+    snow_party *party;
     uint64_t window; /* so many walkers are out at a time; 0: not started */
     int threads;
+    int squads; /* of each thread */
+    int abreast; /* so many of a squad */
     _Atomic uint64_t next;
     _Atomic uint64_t settled;
     _Atomic int walking;
@@ -47,6 +69,7 @@ typedef struct snow_ahead {
     uint64_t repeats;
     snow_landing land;
     void *context;
+    snow_flight flight; /* of one that has to walk again */
     /* What walkers need. */
     const snow_ground *ground;
     uint64_t key;

@@ -21,36 +21,27 @@ void snow_alias_end(snow_alias *alias, snow_heap *heap)
     *alias = (snow_alias){NULL, NULL, NULL, NULL};
 }
 
-uint32_t snow_alias_columns(uint32_t outcomes)
-{
-    uint32_t columns = 1;
-    while (columns < outcomes)
-        columns *= 2;
-    return columns;
-}
-
-static void scale(double *weight, uint32_t outcomes, uint32_t columns)
+static void scale(double *weight, uint32_t outcomes)
 {
     double total = 0;
     for (uint32_t i = 0; i < outcomes; i++)
         total += weight[i];
-    for (uint32_t i = 0; i < columns; i++)
-        weight[i] = i < outcomes ? weight[i] * columns / total : 0;
+    for (uint32_t i = 0; i < outcomes; i++)
+        weight[i] *= outcomes / total;
 }
 
 /* M. D. Vose, IEEE Trans. Softw. Eng. 17 (1991) 972: whoever has too much fills up whoever lacks. */
 void snow_alias_cut(snow_alias *alias, uint32_t outcomes)
 {
-    uint32_t columns = snow_alias_columns(outcomes);
     uint32_t lacking = 0;
-    uint32_t rich = columns;
-    scale(alias->weight, outcomes, columns);
-    for (uint32_t i = 0; i < columns; i++) {
+    uint32_t rich = outcomes;
+    scale(alias->weight, outcomes);
+    for (uint32_t i = 0; i < outcomes; i++) {
         alias->queue[alias->weight[i] < 1 ? lacking++ : --rich] = i;
         alias->threshold[i] = UINT32_MAX;
         alias->other[i] = i;
     }
-    while (lacking > 0 && rich < columns) {
+    while (lacking > 0 && rich < outcomes) {
         uint32_t poor = alias->queue[--lacking];
         uint32_t giver = alias->queue[rich];
         alias->threshold[poor] = (uint32_t)(alias->weight[poor] * 0x1p32);

@@ -16,14 +16,11 @@ typedef struct snow_alias {
     uint32_t *queue;
 } snow_alias;
 
-/* For laws of at most `most` columns. */
+/* For laws of at most `most` outcomes. */
 snow_status snow_alias_start(snow_alias *alias, snow_heap *heap, uint32_t most);
 void snow_alias_end(snow_alias *alias, snow_heap *heap);
 
-/* The least power of two that is at least this. */
-uint32_t snow_alias_columns(uint32_t outcomes);
-
-/* Cuts the columns from the first `outcomes` weights, whatever they add up to. */
+/* Cuts as many columns from the first `outcomes` weights, whatever they add up to. */
 void snow_alias_cut(snow_alias *alias, uint32_t outcomes);
 
 #endif

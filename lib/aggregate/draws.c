@@ -16,12 +16,12 @@ snow_draws_refill snow_draws_choose(snow_isa isa)
     return snow_draws_refill_baseline;
 }
 
-void snow_draws_start(snow_draws *draws, snow_draws_refill refill, uint64_t key, uint64_t walker)
+void snow_draws_start(snow_draws *draws, snow_draws_refill refill, uint64_t key, uint64_t walker, uint32_t used)
 {
     draws->key = key;
     draws->walker = walker;
     draws->refill = refill;
-    snow_draws_move(draws, 0);
+    snow_draws_move(draws, used);
 }
 
 void snow_draws_move(snow_draws *draws, uint32_t used)

@@ -1,5 +1,5 @@
-/* The numbers of one walker of the jump engine: its own Philox stream, computed
-   eight blocks at a time, in vectors. */
+/* The numbers of one walker of the jump engine: its own Philox stream, two
+   numbers a block, computed eight blocks at a time, in vectors. */
 #ifndef SNOW_AGGREGATE_DRAWS_H
 #define SNOW_AGGREGATE_DRAWS_H
 
@@ -29,8 +29,8 @@ void snow_draws_refill_baseline(snow_draws *draws);
 void snow_draws_refill_avx2(snow_draws *draws);
 snow_draws_refill snow_draws_choose(snow_isa isa);
 
-/* The first numbers of a stream. */
-void snow_draws_start(snow_draws *draws, snow_draws_refill refill, uint64_t key, uint64_t walker);
+/* The stream of a walker that has used so many. */
+void snow_draws_start(snow_draws *draws, snow_draws_refill refill, uint64_t key, uint64_t walker, uint32_t used);
 
 /* Back, or on, to when so many were used. */
 void snow_draws_move(snow_draws *draws, uint32_t used);
@@ -48,6 +48,13 @@ static inline uint64_t snow_draws_next(snow_draws *draws)
     if (draws->used % SNOW_DRAWS_AT_ONCE == 0)
         draws->refill(draws);
     return number;
+}
+
+/* What is left of a block is not used: jumps begin with a block after whatever else takes numbers. */
+static inline void snow_draws_end_block(snow_draws *draws)
+{
+    if (draws->used % 2 != 0)
+        (void)snow_draws_next(draws);
 }
 
 /* Uniform in 0 … count − 1, each as likely as the others to count/2^64. */

@@ -26,6 +26,13 @@ enum { LANES = 4 };
 #define XOR(a, b) _mm256_xor_si256(a, b)
 #define JOIN(upper, lower) _mm256_blend_epi32(_mm256_slli_epi64(upper, 32), lower, 0x55)
 #define STORE(to, a) _mm256_storeu_si256((__m256i *)(to), a)
+static inline void store_pairs(uint64_t *to, lanes first, lanes second)
+{
+    lanes even = _mm256_unpacklo_epi64(first, second);
+    lanes odd = _mm256_unpackhi_epi64(first, second);
+    STORE(to, _mm256_permute2x128_si256(even, odd, 0x20));
+    STORE(to + 4, _mm256_permute2x128_si256(even, odd, 0x31));
+}
 #elif defined(__SSE2__)
 #include <emmintrin.h>
 typedef __m128i lanes;
@@ -38,6 +45,11 @@ enum { LANES = 2 };
 #define XOR(a, b) _mm_xor_si128(a, b)
 #define JOIN(upper, lower) XOR(_mm_slli_epi64(upper, 32), _mm_and_si128(lower, ALL(0xFFFFFFFF)))
 #define STORE(to, a) _mm_storeu_si128((__m128i *)(to), a)
+static inline void store_pairs(uint64_t *to, lanes first, lanes second)
+{
+    STORE(to, _mm_unpacklo_epi64(first, second));
+    STORE(to + 2, _mm_unpackhi_epi64(first, second));
+}
 #else
 typedef uint64_t lanes;
 enum { LANES = 1 };
@@ -48,13 +60,16 @@ enum { LANES = 1 };
 #define UPPER(a) ((a) >> 32)
 #define XOR(a, b) ((a) ^ (b))
 #define JOIN(upper, lower) ((upper) << 32 | ((lower) & 0xFFFFFFFF))
-#define STORE(to, a) (*(to) = (a))
+static inline void store_pairs(uint64_t *to, lanes first, lanes second)
+{
+    to[0] = first;
+    to[1] = second;
+}
 #endif
 
 enum { VECTORS = BLOCKS / LANES };
 
-/* snow_random_draw() for a block in each lane: its first two words make one
-   number, the other two one BLOCKS numbers further on. */
+/* snow_random_draw() for a block in each lane: its words make two numbers. */
 void REFILL(SNOW_KERNEL)(snow_draws *draws)
 {
     lanes a[VECTORS];
@@ -81,8 +96,6 @@ void REFILL(SNOW_KERNEL)(snow_draws *draws)
         key_0 = PLUS(key_0, ALL(weyl_0));
         key_1 = PLUS(key_1, ALL(weyl_1));
     }
-    for (int i = 0; i < VECTORS; i++) {
-        STORE(draws->number + i * LANES, JOIN(b[i], a[i]));
-        STORE(draws->number + BLOCKS + i * LANES, JOIN(d[i], c[i]));
-    }
+    for (int i = 0; i < VECTORS; i++)
+        store_pairs(draws->number + 2 * i * LANES, JOIN(b[i], a[i]), JOIN(d[i], c[i]));
 }

@@ -6,15 +6,17 @@
 
 /* The small radii are those that the maps give; of the large ones few are
    enough, and stay in the cache. */
-static const int32_t radii_square[] = {1,   2,   3,   5,   9,   13,  17,  21,  25,  29,  33,   41,   49,   57,   65,   81,   97,
-                                       113, 129, 161, 193, 225, 257, 321, 385, 449, 513, 641, 769, 897, 1025, 1281, 1537, 2049,
-                                       3073, 4097, 8193};
-static const int32_t radii_hexagonal[] = {1, 2, 3, 5, 9, 13, 17, 21, 25, 29, 33, 49, 65, 97, 129};
-static const int32_t radii_cubic[] = {1,  2,  3,  4,  5,  6,  7,  8,  9,  13,  17,  21,  25,  29,
-                                      33, 41, 49, 57, 65, 81, 97, 113, 127, 145, 161, 180, 218, 255};
+static const int32_t radii_square[] = {1,   2,   3,   5,   7,   9,   11,   13,   15,   17,   19,   21,   25,
+                                       29,  33,  37,  41,  45,  49,  57,   65,   73,   81,   89,   97,   113,
+                                       128, 160, 192, 224, 256, 288, 320,  352,  384,  448,  512,  576,  640,
+                                       704, 768, 896, 1024, 1280, 1536, 1792, 2048, 2560, 3072, 4096, 6144, 8192};
+static const int32_t radii_hexagonal[] = {1,  2,  3,  5,  7,  9,  11, 13, 15, 17, 19, 21, 25,
+                                          29, 33, 37, 41, 49, 57, 65, 81, 97, 113, 129};
+static const int32_t radii_cubic[] = {1,  2,  3,  4,  5,  6,  7,  8,  9,  13, 17,
+                                      21, 25, 29, 33, 41, 49, 57, 65, 81, 97, 113};
 /* Hexagonal: regions that are left through circles. */
-static const int32_t radii_of_circles[] = {257, 321, 385,  449,  513,  577,  641,  705,  769,
-                                           833, 897, 1025, 2049, 3073, 4097, 6145, 8193, 14337};
+static const int32_t radii_of_circles[] = {257, 288, 320, 352,  384,  448,  512,  576,  640,  704,  768, 832,
+                                           896, 1024, 1280, 1536, 1792, 2048, 2560, 3072, 4096, 6144, 8192, 14336};
 
 #define COUNT_OF(array) ((int)(sizeof(array) / sizeof(array)[0]))
 
@@ -72,8 +74,7 @@ static void make_exits(snow_aggregate_lattice lattice, int32_t radius, const dou
         }
     }
     snow_alias_cut(alias, outcomes);
-    uint32_t columns = snow_alias_columns(outcomes);
-    for (uint32_t i = 0; i < columns; i++) {
+    for (uint32_t i = 0; i < outcomes; i++) {
         exit[i].threshold = alias->threshold[i];
         exit[i].outcome[1] = exit[alias->other[i]].outcome[0];
     }
@@ -83,7 +84,7 @@ static snow_status make_room(snow_exits *exits, snow_heap *heap, catalogue laws)
 {
     uint32_t columns = 0;
     for (int i = 0; i < laws.count; i++)
-        columns += snow_alias_columns(outcomes_of(exits->lattice, laws.radius[i]));
+        columns += outcomes_of(exits->lattice, laws.radius[i]);
     exits->exit = snow_heap_get(heap, columns, sizeof *exits->exit);
     return exits->exit == NULL ? heap->refusal : SNOW_OK;
 }
@@ -96,8 +97,9 @@ static snow_status make_tables(snow_exits *exits, snow_heap *heap, catalogue law
         snow_status status = snow_exits_law(exits->lattice, radius, chance, heap);
         if (status != SNOW_OK)
             return status;
-        uint32_t columns = snow_alias_columns(outcomes_of(exits->lattice, radius));
-        exits->table[++exits->classes] = (snow_exit_table){exit, columns - 1, radius};
+        uint32_t columns = outcomes_of(exits->lattice, radius);
+        exits->table[++exits->classes] = (snow_exit_table){exit, columns, radius};
+        exits->place[exits->classes] = (uint32_t)(exit - exits->exit) << SNOW_EXIT_RADIUS_BITS | (uint32_t)radius;
         make_exits(exits->lattice, radius, chance, alias, exit);
         exit += columns;
     }
@@ -108,7 +110,7 @@ static snow_status make_tables(snow_exits *exits, snow_heap *heap, catalogue law
 static snow_status make_all(snow_exits *exits, snow_heap *heap)
 {
     catalogue laws = catalogue_of(exits->lattice);
-    uint32_t most = snow_alias_columns(outcomes_of(exits->lattice, laws.radius[laws.count - 1]));
+    uint32_t most = outcomes_of(exits->lattice, laws.radius[laws.count - 1]);
     snow_alias alias;
     snow_status status = snow_alias_start(&alias, heap, most);
     if (status != SNOW_OK)
@@ -172,13 +174,18 @@ static int octave_of(int64_t radius)
 #endif
 }
 
-int snow_exits_class(const snow_exits *exits, int64_t radius)
+int snow_exits_class_near(const snow_exits *exits, int64_t radius)
 {
     enum { LAST = SNOW_EXIT_OCTAVES - 1 };
     int octave = octave_of(radius);
-    int class = exits->class_from[LAST][SNOW_EXIT_PARTS - 1];
-    if (octave <= LAST)
-        class = exits->class_from[octave][(radius * SNOW_EXIT_PARTS >> octave) % SNOW_EXIT_PARTS];
+    if (octave > LAST)
+        return exits->class_from[LAST][SNOW_EXIT_PARTS - 1];
+    return exits->class_from[octave][(radius * SNOW_EXIT_PARTS >> octave) % SNOW_EXIT_PARTS];
+}
+
+int snow_exits_class(const snow_exits *exits, int64_t radius)
+{
+    int class = snow_exits_class_near(exits, radius);
     while (class + 1 < exits->classes && exits->table[class + 1].radius <= radius)
         class++;
     return class;

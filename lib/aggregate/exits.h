@@ -24,11 +24,17 @@ typedef struct snow_exit {
 
 typedef struct snow_exit_table {
     const snow_exit *exit; /* never NULL */
-    uint32_t mask;         /* columns less one */
+    uint32_t columns;
     int32_t radius;
 } snow_exit_table;
 
-enum { SNOW_EXIT_CLASSES = 40, SNOW_EXIT_OCTAVES = 15, SNOW_EXIT_PARTS = 8 };
+/* What a number points to: a column, and a place in it. */
+typedef struct snow_exit_pick {
+    const snow_exit *exit;
+    uint32_t place;
+} snow_exit_pick;
+
+enum { SNOW_EXIT_CLASSES = 64, SNOW_EXIT_OCTAVES = 15, SNOW_EXIT_PARTS = 8, SNOW_EXIT_RADIUS_BITS = 14 };
 
 /* The tables of a lattice, by ascending radius. */
 typedef struct snow_exits {
@@ -38,6 +44,7 @@ typedef struct snow_exits {
     snow_exit_table table[SNOW_EXIT_CLASSES + 1];
     snow_exit *exit;
     uint8_t class_from[SNOW_EXIT_OCTAVES][SNOW_EXIT_PARTS]; /* for radius 2^n (1 + part/8), rounded up */
+    uint32_t place[SNOW_EXIT_CLASSES + 1]; /* for vectors: first column << SNOW_EXIT_RADIUS_BITS | radius */
 } snow_exits;
 
 snow_status snow_exits_start(snow_exits *exits, snow_heap *heap, snow_aggregate_lattice lattice);
@@ -45,6 +52,17 @@ void snow_exits_end(snow_exits *exits, snow_heap *heap);
 
 /* The largest class whose radius is at most this; radius >= 1. */
 int snow_exits_class(const snow_exits *exits, int64_t radius);
+
+/* One of the classes up to that, found without a search. */
+int snow_exits_class_near(const snow_exits *exits, int64_t radius);
+
+/* The number, taken as a fraction of 1, times the columns. What follows the
+   place, 32 bits and more, is left for the symmetries of the region. */
+static inline snow_exit_pick snow_exit_table_pick(const snow_exit_table *table, uint64_t number)
+{
+    uint64_t product = (number >> 32) * table->columns + ((number & 0xFFFFFFFF) * table->columns >> 32);
+    return (snow_exit_pick){&table->exit[product >> 32], (uint32_t)product};
+}
 
 /* The laws themselves, for any radius from 1 on.
    Square: chance[x], x < radius, of each site at offset x of a side:
@@ -58,6 +76,7 @@ snow_status snow_exits_hexagonal(int32_t radius, double *chance, snow_heap *heap
 /* Cubic: chance[a * (a + 1) / 2 + b], b <= a < radius, of each site with
    offsets a and b on its face. */
 snow_status snow_exits_cubic(int32_t radius, double *chance, snow_heap *heap);
+
 /* The one of these that is for the lattice. */
 snow_status snow_exits_law(snow_aggregate_lattice lattice, int32_t radius, double *chance, snow_heap *heap);
 

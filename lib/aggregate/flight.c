@@ -1,5 +1,7 @@
 #include "aggregate/flight.h"
 
+#include "aggregate/squad.h"
+
 /* Pairs of coordinates are not worth the way through vector registers. */
 #if defined(__GNUC__) && !defined(__clang__)
 #pragma GCC optimize("no-tree-slp-vectorize")
@@ -57,11 +59,18 @@ COPIED const void *find(const snow_ground *ground, snow_aggregate_lattice lattic
     return snow_plane_map_find(&ground->plane, site.x, site.y);
 }
 
-COPIED snow_map_answer look(const void *page, snow_aggregate_lattice lattice, snow_site site)
+COPIED uint32_t look(const void *page, snow_aggregate_lattice lattice, snow_site site)
 {
     if (lattice == SNOW_AGGREGATE_CUBIC)
-        return snow_space_page_look(page, site.x, site.y, site.z);
+        return snow_space_page_look(page, site.x, site.y, site.z).seen;
     return snow_plane_page_look(page, site.x, site.y);
+}
+
+COPIED bool has_changed(const snow_ground *ground, snow_aggregate_lattice lattice, snow_site site, uint64_t since)
+{
+    if (lattice == SNOW_AGGREGATE_CUBIC)
+        return snow_space_map_find(&ground->space, site.x, site.y, site.z)->changed > since;
+    return snow_plane_map_has_changed(&ground->plane, site.x, site.y, since);
 }
 
 COPIED int matter(const snow_ground *ground, snow_aggregate_lattice lattice, snow_site site)
@@ -111,33 +120,25 @@ COPIED snow_site fold(const snow_source_of_walkers *source, snow_aggregate_latti
     return site;
 }
 
-/* The column of the table that a number points to. */
-COPIED const snow_exit *column_of(const snow_exit_table *table, uint64_t bits)
-{
-    return &table->exit[(uint32_t)bits & table->mask];
-}
-
 /* To a site at distance `radius`, by the exact law. */
-COPIED snow_site jump(const snow_exit *exit, int32_t radius, snow_aggregate_lattice lattice, snow_site site, uint64_t bits)
+COPIED snow_site jump(const snow_exit_table *table, snow_aggregate_lattice lattice, snow_site site, uint64_t number)
 {
-    uint32_t low = (uint32_t)bits;
-    uint32_t high = (uint32_t)(bits >> 32);
+    int32_t radius = table->radius;
+    snow_exit_pick pick = snow_exit_table_pick(table, number);
+    int32_t offset = pick.exit->outcome[pick.place >= pick.exit->threshold];
     if (lattice == SNOW_AGGREGATE_SQUARE) {
-        const int32_t *image = image_of_square[low >> 29];
-        int32_t along = exit->outcome[high >= exit->threshold];
-        site.x += image[0] * along + image[1] * radius;
-        site.y += image[2] * along + image[3] * radius;
+        const int32_t *image = image_of_square[number & 7];
+        site.x += image[0] * offset + image[1] * radius;
+        site.y += image[2] * offset + image[3] * radius;
         return site;
     }
-    uint64_t product = (uint64_t)high * 6;
-    uint32_t side = (uint32_t)(product >> 32);
-    int32_t offset = exit->outcome[(uint32_t)product >= exit->threshold];
+    uint32_t side = (uint32_t)((number & 0xFFFFFFFF) * 6 >> 32);
     if (lattice == SNOW_AGGREGATE_HEXAGONAL) {
         site.x += radius * corner_q[side] + offset * side_q[side];
         site.y += radius * corner_r[side] + offset * side_r[side];
         return site;
     }
-    const int64_t *image = image_of_cube[8 * side + (low >> 29)];
+    const int64_t *image = image_of_cube[8 * side + (number & 7)];
     int64_t sum = image[0] * radius + image[1] * (offset >> 8) + image[2] * (offset & 255);
     uint64_t shifted = (uint64_t)sum + UINT64_C(0x800080008000);
     site.x += (int32_t)(shifted & 0xFFFF) - 0x8000;
@@ -200,12 +201,10 @@ COPIED bool trial(const snow_ground *ground, snow_aggregate_lattice lattice, sno
 }
 
 /* What the walker sees: the class, or, at a special site where it may go on, 256 and what is around. */
-COPIED snow_map_answer see(const snow_ground *ground, snow_aggregate_lattice lattice, bool careful, snow_site site)
+COPIED uint32_t see(const snow_ground *ground, snow_aggregate_lattice lattice, bool careful, snow_site site)
 {
-    snow_map_answer answer = look(find(ground, lattice, site), lattice, site);
-    if (careful && answer.seen == 0)
-        answer.seen = 256 + (touched(ground, lattice, site) << 9);
-    return answer;
+    uint32_t seen = look(find(ground, lattice, site), lattice, site);
+    return careful && seen == 0 ? 256 + (touched(ground, lattice, site) << 9) : seen;
 }
 
 /* What is constant for all walkers of a ground. */
@@ -219,19 +218,18 @@ typedef struct manner {
 COPIED snow_site leave(const snow_ground *ground, manner how, snow_site site, uint32_t class, snow_draws *draws)
 {
     const snow_exit_table *table = &ground->exits.table[class];
-    if (how.lattice == SNOW_AGGREGATE_HEXAGONAL && RARE(class >= (uint32_t)ground->exits.circles)) {
+    if (how.lattice == SNOW_AGGREGATE_HEXAGONAL && RARE(class >= (uint32_t)ground->exits.circles))
         site = snow_source_circle(site, table->radius, draws);
-    } else {
-        uint64_t bits = snow_draws_next(draws);
-        site = jump(column_of(table, bits), table->radius, how.lattice, site, bits);
-    }
+    else
+        site = jump(table, how.lattice, site, snow_draws_next(draws));
     return how.in_vessel ? fold(&ground->source, how.lattice, site) : site;
 }
 
 /* From the middle of the ball that is free. */
-COPIED snow_site leave_ball(const snow_source_of_walkers *source, manner how, snow_site site, snow_draws *draws)
+COPIED snow_site leave_ball(const snow_source_of_walkers *source, manner how, snow_site site, double ball,
+                            snow_draws *draws)
 {
-    site = snow_source_sphere(site, snow_source_clear_ball(source, site), draws);
+    site = snow_source_sphere(site, ball, draws);
     return how.in_vessel ? fold(source, how.lattice, site) : site;
 }
 
@@ -242,19 +240,26 @@ static bool is_outside(const snow_ground *ground, manner how, snow_site site)
     return snow_plane_map_find(&ground->plane, site.x, site.y) == &ground->plane.outside;
 }
 
+/* A turn outside the map. */
+COPIED snow_site drift(const snow_ground *ground, manner how, snow_site site, snow_draws *draws)
+{
+    int64_t clear = clear_of(&ground->source, how.lattice, site);
+    if (RARE(clear > ground->source.safe))
+        return snow_source_return(&ground->source, site, draws);
+    if (how.lattice == SNOW_AGGREGATE_CUBIC) {
+        double ball = snow_source_clear_ball(&ground->source, site);
+        if (ball >= SNOW_SOURCE_LEAST_BALL)
+            return leave_ball(&ground->source, how, site, ball, draws);
+    }
+    return leave(ground, how, site, (uint32_t)snow_exits_class_near(&ground->exits, clear), draws);
+}
+
 /* From outside the map until it is inside again. No cluster can change that. */
 COPIED snow_site come_in(const snow_ground *ground, manner how, snow_site site, snow_draws *draws)
 {
-    const snow_source_of_walkers *source = &ground->source;
-    do {
-        int64_t clear = clear_of(source, how.lattice, site);
-        if (RARE(clear > source->safe) && snow_source_is_beyond(source, site))
-            site = snow_source_return(source, site, draws);
-        else if (how.lattice == SNOW_AGGREGATE_CUBIC && snow_source_clear_ball(source, site) >= SNOW_SOURCE_LEAST_BALL)
-            site = leave_ball(source, how, site, draws);
-        else
-            site = leave(ground, how, site, (uint32_t)snow_exits_class(&ground->exits, clear), draws);
-    } while (is_outside(ground, how, site));
+    do
+        site = drift(ground, how, site, draws);
+    while (is_outside(ground, how, site));
     return site;
 }
 
@@ -286,32 +291,44 @@ COPIED void put_at(snow_flight *flight, manner how, snow_site site)
         flight->z = site.z;
 }
 
-COPIED void note(snow_flight *flight, snow_site site, snow_map_answer answer)
+COPIED void note(snow_row *row, int lane, manner how, const snow_flight *flight, uint32_t answer)
 {
-    flight->diary[flight->asked++] = (snow_question){answer.changed, site, answer.seen, flight->draws.used};
+    row->x[lane] = flight->x;
+    row->y[lane] = flight->y;
+    row->answer[lane] = answer;
+    row->drawn[lane] = flight->draws.used;
+    if (how.lattice == SNOW_AGGREGATE_CUBIC)
+        row->z[lane] = flight->z;
 }
 
-/* A turn. False: it cannot go on by itself, since it has landed or its diary is full. */
-COPIED bool go_on(const snow_ground *ground, manner how, snow_flight *flight)
+/* A turn of each. */
+COPIED void all_go_on(const snow_ground *ground, manner how, snow_squad *squad)
 {
-    if (RARE(flight->asked == flight->room))
-        return false;
-    snow_site site = site_of(flight, how);
-    snow_map_answer answer = see(ground, how.lattice, how.careful, site);
-    note(flight, site, answer);
-    bool lands = advance(ground, how, &site, &flight->draws, answer.seen);
-    put_at(flight, how, site);
-    if (RARE(lands))
-        flight->landed = true;
-    return !lands;
+    snow_row *row = snow_squad_row(squad, squad->next++);
+    for (int lane = 0; lane < SNOW_LANES; lane++) {
+        if (RARE((squad->busy >> lane & 1) == 0))
+            continue;
+        snow_flight *flight = &squad->flight[lane];
+        snow_site site = site_of(flight, how);
+        uint32_t answer = see(ground, how.lattice, how.careful, site);
+        note(row, lane, how, flight, answer);
+        if (RARE(advance(ground, how, &site, &flight->draws, answer)))
+            squad->landed |= 1u << lane;
+        put_at(flight, how, site);
+    }
 }
 
-COPIED int share(const snow_ground *ground, manner how, snow_flight *const *flights, int count)
+COPIED void walk_in_turn(const snow_ground *ground, manner how, snow_squad *squads, int count)
 {
-    for (;;)
-        for (int i = 0; i < count; i++)
-            if (RARE(!go_on(ground, how, flights[i])))
-                return i;
+    uint32_t ready = 0; /* landed, or without rows */
+    while (ready == 0) {
+        for (int i = 0; i < count; i++) {
+            if (squads[i].next != squads[i].stop)
+                all_go_on(ground, how, &squads[i]);
+            ready |= squads[i].landed;
+            ready |= squads[i].next == squads[i].stop;
+        }
+    }
 }
 
 static manner manner_of(const snow_ground *ground)
@@ -320,63 +337,102 @@ static manner manner_of(const snow_ground *ground)
 }
 
 /* The plain scenes have copies of their own. */
-int snow_flight_share(const snow_ground *ground, snow_flight *const *flights, int count)
+void snow_squads_walk_in_turn(const snow_ground *ground, snow_squad *squads, int count)
 {
     manner how = manner_of(ground);
     if (how.careful || how.in_vessel)
-        return share(ground, how, flights, count);
-    switch (how.lattice) {
-    case SNOW_AGGREGATE_HEXAGONAL:
-        return share(ground, (manner){SNOW_AGGREGATE_HEXAGONAL, false, false}, flights, count);
-    case SNOW_AGGREGATE_CUBIC:
-        return share(ground, (manner){SNOW_AGGREGATE_CUBIC, false, false}, flights, count);
-    default:
-        return share(ground, (manner){SNOW_AGGREGATE_SQUARE, false, false}, flights, count);
-    }
+        walk_in_turn(ground, how, squads, count);
+    else if (how.lattice == SNOW_AGGREGATE_HEXAGONAL)
+        walk_in_turn(ground, (manner){SNOW_AGGREGATE_HEXAGONAL, false, false}, squads, count);
+    else if (how.lattice == SNOW_AGGREGATE_CUBIC)
+        walk_in_turn(ground, (manner){SNOW_AGGREGATE_CUBIC, false, false}, squads, count);
+    else
+        walk_in_turn(ground, (manner){SNOW_AGGREGATE_SQUARE, false, false}, squads, count);
 }
 
-void snow_flight_finish(const snow_ground *ground, snow_flight *flight)
+snow_site snow_flight_finish(const snow_ground *ground, snow_flight *flight)
 {
     manner how = manner_of(ground);
     snow_site site = site_of(flight, how);
     while (!flight->landed) {
-        snow_map_answer answer = see(ground, how.lattice, how.careful, site);
+        uint32_t answer = see(ground, how.lattice, how.careful, site);
         flight->asked++;
-        flight->landed = advance(ground, how, &site, &flight->draws, answer.seen);
+        flight->landed = advance(ground, how, &site, &flight->draws, answer);
     }
     put_at(flight, how, site);
+    return site;
 }
 
-static void set_down(snow_flight *flight, snow_site site)
+static void set_down(snow_flight *flight, snow_site site, bool landed)
 {
     flight->x = site.x;
     flight->y = site.y;
     flight->z = site.z;
-    flight->landed = false;
+    flight->landed = landed;
+    flight->asked = 0;
 }
 
 void snow_flight_start(const snow_ground *ground, snow_flight *flight, uint64_t key, uint64_t walker)
 {
-    snow_draws_start(&flight->draws, ground->refill, key, walker);
-    set_down(flight, snow_source_launch(&ground->source, &flight->draws));
-    flight->asked = 0;
+    snow_draws_start(&flight->draws, ground->refill, key, walker, 0);
+    set_down(flight, snow_source_launch(&ground->source, &flight->draws), false);
 }
 
-uint32_t snow_flight_outdated(const snow_ground *ground, const snow_flight *flight, uint64_t since)
+void snow_flight_resume(const snow_ground *ground, snow_flight *flight, uint64_t key, uint64_t walker, snow_stay stay)
+{
+    snow_draws_start(&flight->draws, ground->refill, key, walker, stay.drawn);
+    set_down(flight, stay.site, stay.landed);
+}
+
+/* A turn of a walker that is far away, or leaves a hexagon through a circle. */
+static void help(const snow_ground *ground, snow_flight *flight, uint32_t seen)
 {
     manner how = manner_of(ground);
-    for (uint32_t i = 0; i < flight->asked; i++) {
-        const snow_question *question = &flight->diary[i];
-        if (RARE(*question->changed > since) &&
-            see(ground, how.lattice, how.careful, question->site).seen != question->answer)
-            return i;
-    }
-    return flight->asked;
+    snow_site site = site_of(flight, how);
+    if (seen == SNOW_MAP_BEYOND)
+        site = drift(ground, how, site, &flight->draws);
+    else
+        site = leave(ground, how, site, seen, &flight->draws);
+    put_at(flight, how, site);
 }
 
-void snow_flight_rewind(snow_flight *flight, uint32_t question)
+void snow_squad_help(const snow_ground *ground, snow_squad *squad, uint32_t still)
 {
-    set_down(flight, flight->diary[question].site);
-    snow_draws_move(&flight->draws, flight->diary[question].drawn);
-    flight->asked = question;
+    const snow_row *row = snow_squad_row(squad, squad->next - 1);
+    for (int lane = 0; lane < SNOW_LANES; lane++) {
+        if ((still >> lane & 1) == 0)
+            continue;
+        if (row->answer[lane] == 0) {
+            squad->landed |= 1u << lane;
+            continue;
+        }
+        snow_flight *flight = &squad->flight[lane];
+        flight->x = squad->lanes.x[lane];
+        flight->y = squad->lanes.y[lane];
+        snow_draws_move(&flight->draws, squad->lanes.drawn[lane]);
+        help(ground, flight, row->answer[lane]);
+        snow_squad_enter(squad, lane);
+    }
+}
+
+COPIED uint32_t outdated(const snow_ground *ground, manner how, const snow_squad *squad, int lane, uint32_t first,
+                         uint32_t end, uint64_t since)
+{
+    for (uint32_t i = first; i != end; i++) {
+        const snow_row *row = snow_squad_row(squad, i);
+        snow_site site = {row->x[lane], row->y[lane], how.lattice == SNOW_AGGREGATE_CUBIC ? row->z[lane] : 0};
+        if (RARE(has_changed(ground, how.lattice, site, since)) &&
+            see(ground, how.lattice, how.careful, site) != row->answer[lane])
+            return i;
+    }
+    return end;
+}
+
+uint32_t snow_squad_outdated(const snow_ground *ground, const snow_squad *squad, int lane, uint32_t first, uint32_t end,
+                             uint64_t since)
+{
+    manner how = manner_of(ground);
+    if (how.lattice == SNOW_AGGREGATE_CUBIC || how.careful)
+        return outdated(ground, how, squad, lane, first, end, since);
+    return outdated(ground, (manner){SNOW_AGGREGATE_SQUARE, false, false}, squad, lane, first, end, since);
 }

@@ -91,6 +91,7 @@ static snow_status fit(snow_growth *growth, snow_heap *heap, int64_t farthest)
         status = widen(growth, heap, &source);
         if (status == SNOW_OK)
             growth->ground.source = source;
+        growth->ground.walk = snow_squads_choose(&growth->ground, growth->rules.isa);
         snow_ahead_resume(&growth->ahead);
     }
     if (status == SNOW_OK)
@@ -144,6 +145,7 @@ static snow_status start_map(snow_growth *growth, snow_heap *heap)
     else
         status = snow_plane_map_start(&ground->plane, heap, &ground->exits, ground->careful,
                                       plane_box(&ground->source));
+    ground->walk = snow_squads_choose(ground, rules->isa);
     return status == SNOW_OK && rules->width > 0 ? add_floor(growth, heap) : status;
 }
 
@@ -245,10 +247,10 @@ snow_status snow_growth_run(snow_growth *growth, snow_heap *heap, const snow_gro
 {
     passage all = {growth, heap, port, most, SNOW_OK};
     snow_ahead *ahead = &growth->ahead;
+    ahead->ground = &growth->ground;
     snow_status status = snow_ahead_start(ahead, heap, crew->threads, is_in_space(growth));
     if (status != SNOW_OK || most == 0)
         return status;
-    ahead->ground = &growth->ground;
     ahead->key = growth->rules.seed;
     ahead->land = land;
     ahead->context = &all;
@@ -260,7 +262,7 @@ snow_status snow_growth_run(snow_growth *growth, snow_heap *heap, const snow_gro
 /* Where a walker of another family of streams ends. */
 static snow_flight fly_alone(const snow_growth *growth, uint64_t key, uint64_t walker)
 {
-    snow_flight flight = {.room = 0};
+    snow_flight flight;
     snow_flight_start(&growth->ground, &flight, key, walker);
     snow_flight_finish(&growth->ground, &flight);
     return flight;

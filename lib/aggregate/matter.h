@@ -13,9 +13,8 @@ enum { SNOW_MATTER_FILLED = 1, SNOW_MATTER_OBSTACLE = 2 };
 /* The answer of a map where it ends: no class, but a place in the table of classes. */
 enum { SNOW_MAP_BEYOND = SNOW_EXIT_CLASSES };
 
-/* Answers come with the place of a number: as long as that number is not greater,
-   the same question has the same answer. It is that of the last landing that
-   changed what is known thereabouts; for those who land walkers. */
+/* Answers come with the place of a number: that of the last landing that may have
+   changed the answer to this question; for those who land walkers. */
 typedef struct snow_map_answer {
     uint32_t seen;
     const uint64_t *changed;

@@ -6,31 +6,21 @@
 #include <string.h>
 
 enum {
-    NEAR_REACH = SNOW_PLANE_NEAR,
-    PATCH_REACH = SNOW_PLANE_PATCHES,
-    FAR_REACH = SNOW_PLANE_FAR, /* tiles, squares */
-    MARGIN = 8,                 /* of the tables of classes, in blocks */
-    SITE_REACH = 3              /* of what a filled site says about sites */
+    BLOCK = 4,
+    TILE = 32,
+    SITE_REACH = 3 /* of what a filled site says about sites */
 };
 
 snow_plane_matter snow_plane_nothing;
 
-/* Blocks apart: a block d away leaves (d − 1) blocks free between. */
-static int apart(snow_aggregate_lattice lattice, int i, int j)
-{
-    int magnitude_i = i < 0 ? -i : i;
-    int magnitude_j = j < 0 ? -j : j;
-    int most = magnitude_i > magnitude_j ? magnitude_i : magnitude_j;
-    if (lattice != SNOW_AGGREGATE_HEXAGONAL)
-        return most;
-    int sum = (i + j < 0 ? -(i + j) : i + j) - 1;
-    return sum > most ? sum : most;
-}
-
 /* Of sites: the radius of the largest region round one that does not hold the other. */
 static int distance(snow_aggregate_lattice lattice, int x, int y)
 {
-    return lattice == SNOW_AGGREGATE_HEXAGONAL ? (int)snow_hexagon_distance(x, y) : apart(lattice, x, y);
+    int by_column = snow_halo_gap(0, 1, x, 1);
+    int by_row = snow_halo_gap(0, 1, y, 1);
+    int by_sum = lattice == SNOW_AGGREGATE_HEXAGONAL ? snow_halo_gap(0, 1, x + y, 1) : 0;
+    int most = by_column > by_row ? by_column : by_row;
+    return most > by_sum ? most : by_sum;
 }
 
 static const int neighbour_x[6] = {1, -1, 0, 0, 1, -1};
@@ -78,20 +68,14 @@ static uint32_t greater(uint32_t a, uint32_t b)
     return (upper_a | upper_b) << 1 | (lower & lower_bits);
 }
 
-static size_t squares_of(snow_plane_box box)
-{
-    return (size_t)(box.columns / 16) * (box.rows / 16);
-}
-
 static size_t tiles_of(snow_plane_box box)
 {
     return (size_t)box.columns * box.rows;
 }
 
-static void start_page(snow_plane_page *page, uint8_t class, int distance, uint64_t landing)
+static void start_page(snow_plane_page *page, uint8_t class, bool is_shared)
 {
-    page->distance = (uint8_t)distance;
-    page->changed = landing;
+    page->is_shared = is_shared;
     for (int i = 0; i < 64; i++)
         atomic_init(&page->near[i], class);
     for (int i = 0; i < 4; i++)
@@ -101,83 +85,31 @@ static void start_page(snow_plane_page *page, uint8_t class, int distance, uint6
 static snow_status cover(snow_plane_map *map, snow_heap *heap, snow_plane_box box)
 {
     snow_plane_page *_Atomic *tile = snow_heap_get_raw(heap, tiles_of(box), sizeof *tile);
-    snow_plane_page *square = snow_heap_get_raw(heap, squares_of(box), sizeof *square);
-    uint8_t *square_distance = snow_heap_get_raw(heap, squares_of(box), 1);
-    if (tile == NULL || square == NULL || square_distance == NULL) {
-        snow_heap_put(heap, square_distance);
-        snow_heap_put(heap, square);
+    uint8_t *tile_class = snow_heap_get_raw(heap, tiles_of(box), 1);
+    uint32_t *changed = snow_heap_get(heap, tiles_of(box), sizeof *changed);
+    if (tile == NULL || tile_class == NULL || changed == NULL) {
+        snow_heap_put(heap, changed);
+        snow_heap_put(heap, tile_class);
         snow_heap_put(heap, tile);
         return heap->refusal;
     }
-    memset(square_distance, FAR_REACH + 1, squares_of(box));
-    for (size_t i = 0; i < squares_of(box); i++)
-        start_page(&square[i], map->square_class[FAR_REACH + 1], FAR_REACH + 1, 0);
-    for (size_t row = 0; row < box.rows; row++)
-        for (size_t column = 0; column < box.columns; column++)
-            atomic_init(&tile[row * box.columns + column], &square[row / 16 * (box.columns / 16) + column / 16]);
+    memset(tile_class, map->halos->beyond_tiles, tiles_of(box));
+    for (size_t i = 0; i < tiles_of(box); i++)
+        atomic_init(&tile[i], &map->far[map->halos->beyond_tiles]);
     map->box = box;
     map->width = box.columns * 32;
     map->height = box.rows * 32;
     map->tile = tile;
-    map->square = square;
-    map->square_distance = square_distance;
+    map->tile_class = tile_class;
+    map->changed = changed;
     return SNOW_OK;
 }
 
 static void uncover(const snow_plane_map *map, snow_heap *heap)
 {
-    snow_heap_put(heap, map->square_distance);
-    snow_heap_put(heap, map->square);
+    snow_heap_put(heap, map->changed);
+    snow_heap_put(heap, map->tile_class);
     snow_heap_put(heap, map->tile);
-}
-
-static bool patch_holds_special(const snow_plane_page *page, uint32_t u, uint32_t v)
-{
-    bool found = false;
-    for (uint32_t row = 0; row < 4; row++)
-        for (uint32_t column = 0; column < 4; column++)
-            found |= SNOW_MAP_GET(page->near[(v / 16 % 2 * 4 + row) * 8 + u / 16 % 2 * 4 + column]) == 0;
-    return found;
-}
-
-static bool holds_special(const snow_plane_page *page)
-{
-    return memchr((const void *)page->near, 0, sizeof page->near) != NULL;
-}
-
-static uint8_t class_of(const snow_exits *exits, int64_t free)
-{
-    return (uint8_t)snow_exits_class(exits, free + 1);
-}
-
-/* What each distance leaves free, at least. */
-static void make_classes(snow_plane_map *map, const snow_exits *exits)
-{
-    for (int d = 0; d <= NEAR_REACH + 1; d++)
-        map->near_class[d] = d < 2 ? (uint8_t)d : class_of(exits, 4 * (d - 1));
-    for (int d = 1; d <= FAR_REACH; d++)
-        start_page(&map->far[d], class_of(exits, 32 * (d - 1)), d, 0);
-    for (int d = 0; d <= FAR_REACH + 1; d++)
-        map->square_class[d] = class_of(exits, d <= 1 ? 32 * FAR_REACH : 512 * (d - 1));
-}
-
-/* Whatever stands in the way: what is nearer than a page tells it tells by blocks. */
-static void make_rows(snow_plane_map *map, const snow_exits *exits)
-{
-    for (int j = -NEAR_REACH; j <= NEAR_REACH; j++) {
-        for (int i = -NEAR_REACH - MARGIN; i <= NEAR_REACH + MARGIN; i++) {
-            int64_t d = at_most(apart(map->lattice, i, j), NEAR_REACH + 1);
-            map->near[j + NEAR_REACH][i + NEAR_REACH + MARGIN] = map->near_class[d];
-        }
-    }
-    for (int j = -PATCH_REACH; j <= PATCH_REACH; j++) {
-        for (int i = -4 * PATCH_REACH - MARGIN; i < 4 * (PATCH_REACH + 1) + MARGIN; i++) {
-            int patch = (i + 4 * PATCH_REACH + MARGIN) / 4 - PATCH_REACH - MARGIN / 4;
-            int64_t d = at_most(apart(map->lattice, patch, j), PATCH_REACH + 1);
-            map->patch[j + PATCH_REACH][i + 4 * PATCH_REACH + MARGIN] =
-                class_of(exits, at_least(16 * (d - 1), 4 * NEAR_REACH));
-        }
-    }
 }
 
 static void make_prints(snow_plane_map *map)
@@ -197,9 +129,13 @@ snow_status snow_plane_map_start(snow_plane_map *map, snow_heap *heap, const sno
         .keeps_matter = keeps_matter,
         .lattice = exits->lattice,
     };
-    start_page(&map->outside, SNOW_MAP_BEYOND, FAR_REACH + 1, 0);
-    make_classes(map, exits);
-    make_rows(map, exits);
+    map->halos = snow_heap_get_raw(heap, 1, sizeof *map->halos);
+    if (map->halos == NULL)
+        return heap->refusal;
+    start_page(&map->outside, SNOW_MAP_BEYOND, true);
+    snow_halos_make(map->halos, exits);
+    for (int class = 0; class < SNOW_EXIT_CLASSES; class++)
+        start_page(&map->far[class], (uint8_t)class, true);
     make_prints(map);
     return cover(map, heap, box);
 }
@@ -209,20 +145,32 @@ void snow_plane_map_end(snow_plane_map *map, snow_heap *heap)
     snow_pool_end(&map->lines, heap);
     snow_pool_end(&map->pages, heap);
     uncover(map, heap);
-    map->square_distance = NULL;
-    map->square = NULL;
+    snow_heap_put(heap, map->halos);
+    map->halos = NULL;
+    map->changed = NULL;
+    map->tile_class = NULL;
     map->tile = NULL;
 }
 
-static snow_plane_page *page_of(snow_plane_map *map, int64_t column, int64_t row)
+static void stamp(const snow_plane_map *map, size_t tile)
 {
-    snow_plane_page *_Atomic *entry = &map->tile[(size_t)row * map->box.columns + (size_t)column];
+    map->changed[tile] = (uint32_t)map->landing;
+}
+
+static size_t tile_at(const snow_plane_map *map, int64_t column, int64_t row)
+{
+    return (size_t)row * map->box.columns + (size_t)column;
+}
+
+static inline snow_plane_page *page_of(snow_plane_map *map, int64_t column, int64_t row)
+{
+    snow_plane_page *_Atomic *entry = &map->tile[tile_at(map, column, row)];
     snow_plane_page *page = SNOW_MAP_GET(*entry);
-    if (page->distance == 0)
+    if (!page->is_shared)
         return page;
-    page->changed = map->landing;
     page = snow_pool_take(&map->pages);
-    start_page(page, map->patch[0][0], 0, map->landing);
+    start_page(page, map->halos->beyond_blocks, false);
+    stamp(map, tile_at(map, column, row));
     SNOW_MAP_PUT_ADDRESS(*entry, page);
     return page;
 }
@@ -236,7 +184,7 @@ static snow_plane_line *line_of(snow_plane_map *map, uint32_t u, uint32_t v)
 {
     uint32_t place = v / 16 % 2 * 2 + u / 16 % 2;
     snow_plane_page *page = known_page(map, u, v);
-    page->changed = map->landing;
+    stamp(map, tile_at(map, u / TILE, v / TILE));
     snow_plane_line *line = SNOW_MAP_GET(page->line[place]);
     if (line == &snow_plane_nothing.line) {
         line = snow_pool_take(&map->lines);
@@ -245,116 +193,202 @@ static snow_plane_line *line_of(snow_plane_map *map, uint32_t u, uint32_t v)
     return line;
 }
 
-/* Whether none of eight bounds is below what is known; all are less than 128. */
-static bool are_known(const _Atomic uint8_t *known, const uint8_t *bound)
+/* The cell of 2 sites a side round a site. */
+static bool pair_holds_special(const snow_plane_page *page, uint32_t u, uint32_t v)
 {
-    const uint64_t tops = UINT64_C(0x8080808080808080);
-    uint64_t a;
-    uint64_t b;
-    memcpy(&a, (const void *)known, sizeof a); /* nobody else writes */
-    memcpy(&b, bound, sizeof b);
-    return (((b | tops) - a) & tops) == tops;
+    const snow_plane_line *line = SNOW_MAP_GET(page->line[v / 16 % 2 * 2 + u / 16 % 2]);
+    uint32_t even = SNOW_MAP_GET(line->row[v % 16 / 2 * 2]);
+    uint32_t odd = SNOW_MAP_GET(line->row[v % 16 / 2 * 2 + 1]);
+    uint32_t special = (even & even >> 1) | (odd & odd >> 1);
+    return (special >> u % 16 / 2 * 4 & 5) != 0;
 }
 
-/* The lesser of each two. */
-static void lower(_Atomic uint8_t *known, const uint8_t *bound)
+/* One of 4, 8, 16. */
+static bool blocks_hold_special(const snow_plane_page *page, uint32_t u, uint32_t v, uint32_t size)
 {
-    for (int i = 0; i < 8; i++)
-        if (bound[i] < SNOW_MAP_GET(known[i]))
-            SNOW_MAP_PUT(known[i], bound[i]);
+    uint32_t side = size / BLOCK;
+    uint32_t first_row = v % TILE / size * side;
+    uint32_t first_column = u % TILE / size * side;
+    bool found = false;
+    for (uint32_t row = first_row; row < first_row + side; row++)
+        for (uint32_t column = first_column; column < first_column + side; column++)
+            found |= SNOW_MAP_GET(page->near[row * 8 + column]) == 0;
+    return found;
 }
 
-static void lower_row(snow_plane_map *map, snow_plane_page *page, int64_t row, const uint8_t *bound)
+/* One of 32, 64 ... */
+static bool tiles_hold_special(const snow_plane_map *map, uint32_t u, uint32_t v, uint32_t size)
 {
-    _Atomic uint8_t *known = &page->near[row % 8 * 8];
-    if (are_known(known, bound))
+    uint32_t side = size / TILE;
+    size_t first = (size_t)(v / size * side) * map->box.columns + u / size * side;
+    for (uint32_t row = 0; row < side; row++)
+        if (memchr(map->tile_class + first + (size_t)row * map->box.columns, 0, side) != NULL)
+            return true;
+    return false;
+}
+
+static bool cell_holds_special(const snow_plane_map *map, uint32_t u, uint32_t v, uint32_t size)
+{
+    if (size >= TILE)
+        return tiles_hold_special(map, u, v, size);
+    const snow_plane_page *page = known_page(map, u, v);
+    return size < BLOCK ? pair_holds_special(page, u, v) : blocks_hold_special(page, u, v, size);
+}
+
+/* Some places of a map. */
+typedef struct part {
+    int64_t first_column, last_column, first_row, last_row;
+} part;
+
+/* On which sides of a cell of this size the next one holds a special site. */
+typedef struct company {
+    bool left, right, below, above;
+} company;
+
+static company company_of(const snow_plane_map *map, uint32_t u, uint32_t v, uint32_t size)
+{
+    return (company){u >= size && cell_holds_special(map, u - size, v, size),
+                     u + size < map->width && cell_holds_special(map, u + size, v, size),
+                     v >= size && cell_holds_special(map, u, v - size, size),
+                     v + size < map->height && cell_holds_special(map, u, v + size, size)};
+}
+
+/* The places that may learn something from a cell that begins in place (i, j). To
+   all those left of it a cell on its left that holds a special site is as near, or
+   nearer; and so on each side. */
+static part part_of(const snow_halo *halo, company beside, int64_t i, int64_t j)
+{
+    int64_t last = halo->first + halo->last; /* of the cell's own places */
+    return (part){i + (beside.left ? 0 : halo->first), i + (beside.right ? last : halo->last),
+                  j + (beside.below ? 0 : halo->first), j + (beside.above ? last : halo->last)};
+}
+
+static part clip(part all, int64_t columns, int64_t rows)
+{
+    return (part){at_least(all.first_column, 0), at_most(all.last_column, columns - 1),
+                  at_least(all.first_row, 0), at_most(all.last_row, rows - 1)};
+}
+
+/* Rows of a page, from block (x, y) on, as counted from the halo's corner. True: they change. */
+static bool lower_rows(snow_plane_page *page, int first, int last, const snow_halo *halo, int x, int y)
+{
+    bool changed = false;
+    for (int row = first; row <= last; row++, y++) {
+        uint64_t known = SNOW_MAP_GET(page->near_row[row]);
+        uint64_t now = snow_halo_lower(known, halo, x, y);
+        if (now == known)
+            continue;
+        SNOW_MAP_PUT(page->near_row[row], now);
+        changed = true;
+    }
+    return changed;
+}
+
+/* A cell that begins in the block (i, j) has got its first special site. */
+static void spread_to_blocks(snow_plane_map *map, const snow_halo *halo, company beside, int64_t i, int64_t j)
+{
+    part near = clip(part_of(halo, beside, i, j), (int64_t)map->box.columns * 8, (int64_t)map->box.rows * 8);
+    for (int64_t y = near.first_row / 8; y <= near.last_row / 8; y++) {
+        int64_t first = at_least(near.first_row, 8 * y);
+        int64_t last = at_most(near.last_row, 8 * y + 7);
+        for (int64_t x = near.first_column / 8; x <= near.last_column / 8; x++)
+            if (lower_rows(page_of(map, x, y), (int)(first - 8 * y), (int)(last - 8 * y), halo,
+                           (int)(8 * x - i - halo->first), (int)(first - j - halo->first)))
+                stamp(map, tile_at(map, x, y));
+    }
+}
+
+static void set_tile_class(snow_plane_map *map, size_t tile, uint8_t class)
+{
+    map->tile_class[tile] = class;
+    if (!SNOW_MAP_GET(map->tile[tile])->is_shared)
         return;
-    lower(known, bound);
-    page->changed = map->landing;
+    stamp(map, tile);
+    SNOW_MAP_PUT_ADDRESS(map->tile[tile], &map->far[class]);
 }
 
-/* The block (i, j) has got its first special site. */
-static void spread_near(snow_plane_map *map, int64_t i, int64_t j)
+/* Eight tiles. */
+static void set_tile_classes(snow_plane_map *map, size_t tile, uint64_t known, uint64_t now)
 {
-    int64_t first_row = at_least(j - NEAR_REACH, 0);
-    int64_t last_row = at_most(j + NEAR_REACH, (int64_t)map->box.rows * 8 - 1);
-    int64_t last_tile = at_most(i + NEAR_REACH, (int64_t)map->box.columns * 8 - 1) / 8;
-    for (int64_t tile = at_least(i - NEAR_REACH, 0) / 8; tile <= last_tile; tile++) {
-        for (int64_t row = first_row; row <= last_row;) {
-            snow_plane_page *page = page_of(map, tile, row / 8);
-            int64_t end = at_most(row - row % 8 + 8, last_row + 1);
-            for (; row < end; row++)
-                lower_row(map, page, row, &map->near[row - j + NEAR_REACH][8 * tile - i + NEAR_REACH + MARGIN]);
+    uint8_t before[SNOW_HALO_GROUP];
+    uint8_t after[SNOW_HALO_GROUP];
+    memcpy(before, &known, sizeof before);
+    memcpy(after, &now, sizeof after);
+    for (size_t i = 0; i < SNOW_HALO_GROUP; i++)
+        if (after[i] != before[i])
+            set_tile_class(map, tile + i, after[i]);
+}
+
+/* A cell that begins in the tile (i, j) has got its first special site. */
+static void spread_to_tiles(snow_plane_map *map, const snow_halo *halo, company beside, int64_t i, int64_t j)
+{
+    part near = clip(part_of(halo, beside, i, j), map->box.columns, map->box.rows);
+    for (int64_t row = near.first_row; row <= near.last_row; row++) {
+        int y = (int)(row - j - halo->first);
+        for (int64_t column = near.first_column / SNOW_HALO_GROUP * SNOW_HALO_GROUP; column <= near.last_column; column += SNOW_HALO_GROUP) {
+            int x = (int)(column - i - halo->first);
+            size_t tile = (size_t)row * map->box.columns + (size_t)column;
+            uint64_t known = snow_halo_group(&map->tile_class[tile]);
+            uint64_t now = snow_halo_lower(known, halo, x, y);
+            if (now != known)
+                set_tile_classes(map, tile, known, now);
         }
     }
 }
 
-/* The patch (i, j) has got its first special site. */
-static void spread_patch(snow_plane_map *map, int64_t i, int64_t j)
+/* The cell of a kind round a site has got its first special one. */
+static void spread(snow_plane_map *map, uint32_t u, uint32_t v, int kind, company beside)
 {
-    int64_t first_row = at_least(j - PATCH_REACH, 0) * 4;
-    int64_t last_row = at_most(j + PATCH_REACH, (int64_t)map->box.rows * 2 - 1) * 4 + 3;
-    int64_t last_tile = at_most(i + PATCH_REACH, (int64_t)map->box.columns * 2 - 1) / 2;
-    for (int64_t tile = at_least(i - PATCH_REACH, 0) / 2; tile <= last_tile; tile++) {
-        for (int64_t row = first_row; row <= last_row;) {
-            snow_plane_page *page = page_of(map, tile, row / 8);
-            int64_t end = at_most(row - row % 8 + 8, last_row + 1);
-            for (; row < end; row++)
-                lower_row(map, page, row, &map->patch[row / 4 - j + PATCH_REACH][4 * (2 * tile - i + PATCH_REACH) + MARGIN]);
-        }
+    const snow_halo *halo = snow_halos_find(map->halos, kind, u, v);
+    uint32_t size = snow_halo_size(kind);
+    uint32_t first_u = u / size * size;
+    uint32_t first_v = v / size * size;
+    if (kind < SNOW_HALO_BLOCK_SIZES)
+        spread_to_blocks(map, halo, beside, first_u / BLOCK, first_v / BLOCK);
+    else
+        spread_to_tiles(map, halo, beside, first_u / TILE, first_v / TILE);
+}
+
+/* The smallest cell had none, and perhaps larger ones had none. */
+static SNOW_APART void add_first_special(snow_plane_map *map, uint32_t u, uint32_t v)
+{
+    int kinds = 1;
+    while (kinds < SNOW_HALO_SIZES && !cell_holds_special(map, u, v, snow_halo_size(kinds)))
+        kinds++;
+    for (int kind = 0; kind < kinds; kind++)
+        spread(map, u, v, kind, company_of(map, u, v, snow_halo_size(kind)));
+}
+
+static void add_special(snow_plane_map *map, uint32_t u, uint32_t v)
+{
+    if (u < map->width && v < map->height && !pair_holds_special(known_page(map, u, v), u, v))
+        add_first_special(map, u, v);
+}
+
+/* Tiles move to the new box. */
+static void copy_in(snow_plane_map *map, const snow_plane_map *old, size_t shift_x, size_t shift_y)
+{
+    for (size_t row = 0; row < old->box.rows; row++) {
+        size_t from = row * old->box.columns;
+        size_t to = (row + shift_y) * map->box.columns + shift_x;
+        memcpy(map->tile_class + to, old->tile_class + from, old->box.columns);
+        for (size_t column = 0; column < old->box.columns; column++)
+            SNOW_MAP_PUT(map->tile[to + column], SNOW_MAP_GET(old->tile[from + column]));
     }
 }
 
-static void spread_square(snow_plane_map *map, int64_t i, int64_t j)
+/* Cells say round the old box what they say inside. */
+static void spread_out(snow_plane_map *map, const snow_plane_map *old, uint32_t shift_u, uint32_t shift_v)
 {
-    int64_t columns = map->box.columns / 16;
-    int64_t last_row = at_most(j + FAR_REACH, map->box.rows / 16 - 1);
-    int64_t last = at_most(i + FAR_REACH, columns - 1);
-    for (int64_t y = at_least(j - FAR_REACH, 0); y <= last_row; y++) {
-        for (int64_t x = at_least(i - FAR_REACH, 0); x <= last; x++) {
-            int64_t d = apart(map->lattice, (int)(x - i), (int)(y - j));
-            uint8_t *known = &map->square_distance[y * columns + x];
-            if (d >= *known)
-                continue;
-            *known = (uint8_t)d;
-            snow_plane_page *page = &map->square[y * columns + x];
-            for (int k = 0; k < 64; k++)
-                SNOW_MAP_PUT(page->near[k], map->square_class[d]);
-            page->changed = map->landing;
-        }
-    }
-}
-
-/* The tile (i, j) has got its first special site. */
-static void spread_tile(snow_plane_map *map, int64_t i, int64_t j)
-{
-    int64_t last_row = at_most(j + FAR_REACH, (int64_t)map->box.rows - 1);
-    int64_t last = at_most(i + FAR_REACH, (int64_t)map->box.columns - 1);
-    for (int64_t y = at_least(j - FAR_REACH, 0); y <= last_row; y++) {
-        for (int64_t x = at_least(i - FAR_REACH, 0); x <= last; x++) {
-            snow_plane_page *_Atomic *entry = &map->tile[(size_t)y * map->box.columns + (size_t)x];
-            snow_plane_page *page = SNOW_MAP_GET(*entry);
-            int d = apart(map->lattice, (int)(x - i), (int)(y - j));
-            if (d >= page->distance)
-                continue;
-            page->changed = map->landing;
-            SNOW_MAP_PUT_ADDRESS(*entry, &map->far[d]);
-        }
-    }
-    if (map->square_distance[j / 16 * (map->box.columns / 16) + i / 16] != 0)
-        spread_square(map, i / 16, j / 16);
-}
-
-/* Pages move to the new box. */
-static void copy_in(snow_plane_map *map, const snow_plane_map *old)
-{
-    int64_t shift_x = ((int64_t)old->box.x - map->box.x) / 32;
-    int64_t shift_y = ((int64_t)old->box.y - map->box.y) / 32;
-    for (int64_t y = 0; y < old->box.rows; y++) {
-        for (int64_t x = 0; x < old->box.columns; x++) {
-            snow_plane_page *page = SNOW_MAP_GET(old->tile[(size_t)y * old->box.columns + (size_t)x]);
-            if (page->distance == 0)
-                SNOW_MAP_PUT(map->tile[(size_t)(y + shift_y) * map->box.columns + (size_t)(x + shift_x)], page);
+    for (int kind = SNOW_HALO_BLOCK_SIZES; kind < SNOW_HALO_SIZES; kind++) {
+        uint32_t size = snow_halo_size(kind);
+        uint32_t reach = (SNOW_HALO_TILE_REACH + 1) * size + TILE;
+        for (uint32_t v = 0; v < old->height; v += size) {
+            for (uint32_t u = 0; u < old->width; u += size) {
+                bool sees_out = u < reach || v < reach || u + reach >= old->width || v + reach >= old->height;
+                if (sees_out && cell_holds_special(map, u + shift_u, v + shift_v, size))
+                    spread(map, u + shift_u, v + shift_v, kind, (company){false, false, false, false});
+            }
         }
     }
 }
@@ -365,15 +399,11 @@ snow_status snow_plane_map_widen(snow_plane_map *map, snow_heap *heap, snow_plan
     snow_status status = cover(map, heap, box);
     if (status != SNOW_OK)
         return status;
-    copy_in(map, &old);
+    uint32_t shift_u = (uint32_t)old.box.x - (uint32_t)box.x;
+    uint32_t shift_v = (uint32_t)old.box.y - (uint32_t)box.y;
+    copy_in(map, &old, shift_u / TILE, shift_v / TILE);
     uncover(&old, heap);
-    for (int64_t y = 0; y < box.rows; y++) {
-        for (int64_t x = 0; x < box.columns; x++) {
-            const snow_plane_page *page = SNOW_MAP_GET(map->tile[(size_t)y * box.columns + (size_t)x]);
-            if (page->distance == 0 && holds_special(page))
-                spread_tile(map, x, y);
-        }
-    }
+    spread_out(map, &old, shift_u, shift_v);
     return SNOW_OK;
 }
 
@@ -384,23 +414,13 @@ snow_status snow_plane_map_reserve(snow_plane_map *map, snow_heap *heap)
     return status == SNOW_OK ? snow_pool_reserve(&map->lines, heap, LINES) : status;
 }
 
-/* In a block that had none. */
-static SNOW_APART void add_first_special(snow_plane_map *map, uint32_t u, uint32_t v)
+/* What shares the smallest cell with a special site adds nothing there. */
+static void add_neighbour(snow_plane_map *map, uint32_t u, uint32_t v, int way)
 {
-    const snow_plane_page *page = page_of(map, u / 32, v / 32);
-    bool is_first_of_tile = !holds_special(page);
-    bool is_first_of_patch = !patch_holds_special(page, u, v);
-    spread_near(map, u / 4, v / 4);
-    if (is_first_of_patch)
-        spread_patch(map, u / 16, v / 16);
-    if (is_first_of_tile)
-        spread_tile(map, u / 32, v / 32);
-}
-
-static void add_special(snow_plane_map *map, uint32_t u, uint32_t v)
-{
-    if (u < map->width && v < map->height && SNOW_MAP_GET(known_page(map, u, v)->near[v / 4 % 8 * 8 + u / 4 % 8]) != 0)
-        add_first_special(map, u, v);
+    uint32_t other_u = u + (uint32_t)neighbour_x[way];
+    uint32_t other_v = v + (uint32_t)neighbour_y[way];
+    if (other_u / 2 != u / 2 || other_v / 2 != v / 2)
+        add_special(map, other_u, other_v);
 }
 
 /* The rows of one line, `first` to `last` of the map. */
@@ -436,7 +456,7 @@ void snow_plane_map_add(snow_plane_map *map, int32_t x, int32_t y, bool obstacle
     uint32_t v = (uint32_t)y - (uint32_t)map->box.y;
     add_special(map, u, v);
     for (int k = 0; k < (map->lattice == SNOW_AGGREGATE_HEXAGONAL ? 6 : 4); k++)
-        add_special(map, u + (uint32_t)neighbour_x[k], v + (uint32_t)neighbour_y[k]);
+        add_neighbour(map, u, v, k);
     add_prints(map, (int64_t)x - map->box.x, (int64_t)y - map->box.y);
     if (!map->keeps_matter || u >= map->width || v >= map->height)
         return;

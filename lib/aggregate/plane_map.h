@@ -8,31 +8,23 @@
    - for each site whether the nearest special site is at distance 0, 1, 2 or
      more: two bits a site, a word for 16 sites of a row, a cache line (a "line")
      for 16 x 16 sites near which there is one;
-   - for each block of 4 x 4 sites how many blocks away the nearest one with a
-     special site is, up to 8, and beyond that how many patches of 16 x 16 sites
-     its patch is away, up to 6: a byte a block, in "pages" of 32 x 32 sites near
-     which there is one;
-   - the same for tiles, the places of pages, up to 15;
-   - the same for squares of 16 x 16 tiles, up to 15.
-   Where blocks of b sites are d blocks apart, (d - 1) b sites are free between
-   their nearest sites. Bytes hold the class that follows. Where there is no page
-   of a tile's own one stands that says the same everywhere, so that each
-   question takes the same way: which branch it would take nobody could foretell.
-   The map is a function of the set of special sites: the order in which they came
-   does not show. */
+   - for each block of 4 x 4 sites what the cells of plane_halo.h up to 8 sites wide
+     say: a byte a block, in "pages" of 32 x 32 sites near which there is one;
+   - for each tile, the place of a page, what larger cells say.
+   Bytes hold classes: the least that cells say, 0 where a special site lies in the
+   place. Where there is no page of a tile's own one stands that says the same
+   everywhere, so that each question takes the same way: which branch it would
+   take nobody could foretell. The map is a function of the set of special sites:
+   the order in which they came does not show. */
 #ifndef SNOW_AGGREGATE_PLANE_MAP_H
 #define SNOW_AGGREGATE_PLANE_MAP_H
 
-#include "aggregate/exits.h"
 #include "aggregate/matter.h"
+#include "aggregate/plane_halo.h"
 #include "aggregate/pool.h"
 
-enum {
-    SNOW_PLANE_NEAR = 8,    /* the greatest distance of blocks that is told apart */
-    SNOW_PLANE_PATCHES = 6, /* of patches */
-    SNOW_PLANE_FAR = 15,    /* of tiles, of squares */
-    SNOW_PLANE_MARGIN = 128 /* of sites that are not special, on sides where the map may be widened */
-};
+/* Between special sites and those sides where the map may be widened: more than cells of blocks see. */
+enum { SNOW_PLANE_MARGIN = 96 };
 
 /* Three less the distance of each site, two bits each. */
 typedef struct snow_plane_line {
@@ -46,14 +38,17 @@ typedef struct snow_plane_matter {
     _Atomic uint16_t obstacle[16];
 } snow_plane_matter;
 
+/* Two cache lines: far from what is special walkers need but the first. */
 typedef struct snow_plane_page {
-    _Atomic uint8_t near[64];         /* 0, 1: so many blocks away; else the class */
+    union {
+        _Alignas(64) _Atomic uint8_t near[64]; /* of blocks */
+        _Atomic uint64_t near_row[8];
+    };
     snow_plane_line *_Atomic line[4]; /* never NULL: where nothing is near they share one */
-    uint64_t changed;                 /* what this page says: last, by the landing of this number */
-    uint8_t distance;                 /* of the tiles that this page stands for; 0: it is one tile's own */
+    bool is_shared;                   /* by tiles that have none of their own */
 } snow_plane_page;
 
-/* The sites that the map covers: whole squares of tiles; x and y are multiples of 32. */
+/* The sites that the map covers: whole cells of the largest size; x and y are multiples of 512. */
 typedef struct snow_plane_box {
     int32_t x, y;
     uint32_t columns, rows;
@@ -63,20 +58,17 @@ typedef struct snow_plane_map {
     snow_plane_box box;
     uint32_t width, height; /* of the box, sites */
     snow_plane_page *_Atomic *tile;
-    snow_plane_page *square; /* for tiles that are far from all special ones */
-    uint8_t *square_distance;
-    snow_plane_page far[SNOW_PLANE_FAR + 1]; /* for tiles at this distance */
-    uint8_t near_class[SNOW_PLANE_NEAR + 2];
-    uint8_t square_class[SNOW_PLANE_FAR + 2];
+    uint8_t *tile_class;
+    uint32_t *changed; /* what is known of each tile: last by the landing of this number (its last 32 bits) */
+    snow_plane_page far[SNOW_EXIT_CLASSES]; /* for tiles of this class */
     snow_pool pages;
     snow_pool lines; /* with matter, if that is kept */
     bool keeps_matter;
     snow_aggregate_lattice lattice;
-    uint32_t print[16][7][3];  /* for each place in a row: what a filled site does to the rows round it */
-    uint8_t near[17][17 + 16]; /* classes round a block, from the middle; at both sides 8 columns more */
-    uint8_t patch[13][13 * 4 + 16]; /* the same round a patch, four times each */
-    uint64_t landing;          /* for pages that change now */
-    snow_plane_page outside;   /* stands for all places where the map ends */
+    uint32_t print[16][7][3]; /* for each place in a row: what a filled site does to the rows round it */
+    snow_halos *halos;
+    uint64_t landing;         /* for pages that change now */
+    snow_plane_page outside;  /* stands for all places where the map ends */
 } snow_plane_map;
 
 snow_status snow_plane_map_start(snow_plane_map *map, snow_heap *heap, const snow_exits *exits, bool keeps_matter,
@@ -108,15 +100,24 @@ static inline const snow_plane_page *snow_plane_map_find(const snow_plane_map *m
     return inside ? page : &map->outside;
 }
 
+/* Whether an answer there may have changed since that landing, one of the last 2^31. */
+static inline bool snow_plane_map_has_changed(const snow_plane_map *map, int32_t x, int32_t y, uint64_t since)
+{
+    uint32_t u = (uint32_t)x - (uint32_t)map->box.x;
+    uint32_t v = (uint32_t)y - (uint32_t)map->box.y;
+    return u < map->width && v < map->height &&
+           (int32_t)(map->changed[(size_t)(v / 32) * map->box.columns + u / 32] - (uint32_t)since) > 0;
+}
+
 /* 0: special; else a class; SNOW_MAP_BEYOND. */
-static inline snow_map_answer snow_plane_page_look(const snow_plane_page *page, int32_t x, int32_t y)
+static inline uint32_t snow_plane_page_look(const snow_plane_page *page, int32_t x, int32_t y)
 {
     uint32_t u = (uint32_t)x; /* boxes begin at multiples of 32 */
     uint32_t v = (uint32_t)y;
     uint32_t near = SNOW_MAP_GET(page->near[v / 4 % 8 * 8 + u / 4 % 8]);
     const snow_plane_line *line = SNOW_MAP_GET_ADDRESS(page->line[v / 16 % 2 * 2 + u / 16 % 2]);
     uint32_t exact = ~SNOW_MAP_GET(line->row[v % 16]) >> (u % 16 * 2) & 3;
-    return (snow_map_answer){near > exact ? near : exact, &page->changed}; /* neither is more than what is free */
+    return near > exact ? near : exact; /* neither is more than what is free */
 }
 
 /* What is on a site; only where matter is kept. */

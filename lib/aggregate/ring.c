@@ -50,15 +50,14 @@ static uint32_t sites_of_side(snow_aggregate_lattice lattice, int32_t radius)
 static snow_status make_law(snow_ring *self, snow_heap *heap, int level, double *chance, snow_alias *alias)
 {
     int32_t radius = 1 << level;
-    uint32_t columns = snow_alias_columns(sites_of_side(self->lattice, radius));
-    snow_ring_exit *exit = snow_heap_get(heap, columns, sizeof *exit);
+    snow_ring_exit *exit = snow_heap_get(heap, sites_of_side(self->lattice, radius), sizeof *exit);
     self->exit[level] = exit;
     snow_status status = exit != NULL ? snow_exits_law(self->lattice, radius, chance, heap) : heap->refusal;
     if (status != SNOW_OK)
         return status;
     uint32_t sites = list_side(self->lattice, radius, chance, alias->weight, exit);
     snow_alias_cut(alias, sites);
-    self->columns[level] = snow_alias_columns(sites);
+    self->columns[level] = sites;
     for (uint32_t i = 0; i < self->columns[level]; i++) {
         exit[i].threshold = alias->threshold[i];
         exit[i].along[1][0] = exit[alias->other[i]].along[0][0];
@@ -69,7 +68,7 @@ static snow_status make_law(snow_ring *self, snow_heap *heap, int level, double 
 
 static snow_status make_laws(snow_ring *self, snow_heap *heap)
 {
-    uint32_t most = snow_alias_columns(sites_of_side(self->lattice, 1 << (self->levels - 1)));
+    uint32_t most = sites_of_side(self->lattice, 1 << (self->levels - 1));
     snow_alias alias;
     snow_status status = snow_alias_start(&alias, heap, most);
     if (status != SNOW_OK)

@@ -138,7 +138,7 @@ void snow_source_fit(snow_source_of_walkers *source, int64_t farthest)
     source->rim = (int32_t)rim;
     source->reach = (int32_t)(source->lattice == SNOW_AGGREGATE_HEXAGONAL ? rim * 37 / 32 + 1 : rim);
     source->far = is_in_space(source) ? far_in_space(rim) : far_in_plane(rim);
-    source->safe = source->far / 2 - source->reach;
+    source->safe = source->far - source->reach;
 }
 
 /* A row of the vessel; on the hexagonal lattice a site on a mirror stands for one, each other for two. */
@@ -163,7 +163,7 @@ static snow_site launch_in_vessel(const snow_source_of_walkers *source, snow_dra
     return (snow_site){x, y, row};
 }
 
-snow_site snow_source_launch(const snow_source_of_walkers *source, snow_draws *draws)
+static snow_site launch(const snow_source_of_walkers *source, snow_draws *draws)
 {
     if (source->width > 0)
         return launch_in_vessel(source, draws);
@@ -172,15 +172,12 @@ snow_site snow_source_launch(const snow_source_of_walkers *source, snow_draws *d
     return site_at(source->lattice, (point){radius * unit.x, radius * unit.y, radius * unit.z});
 }
 
-bool snow_source_is_beyond(const snow_source_of_walkers *source, snow_site site)
+snow_site snow_source_launch(const snow_source_of_walkers *source, snow_draws *draws)
 {
-    if (source->width > 0)
-        return (is_in_space(source) ? site.z : site.y) > source->far;
-    int64_t x = site.x;
-    int64_t y = site.y;
-    int64_t z = site.z;
-    int64_t mixed = source->lattice == SNOW_AGGREGATE_HEXAGONAL ? x * y : 0;
-    return x * x + y * y + z * z + mixed > source->far * source->far;
+    snow_draws_end_block(draws);
+    snow_site site = launch(source, draws);
+    snow_draws_end_block(draws);
+    return site;
 }
 
 /* The disc |w| < 1 is turned so that 0 goes to a, where the walker's mirror image
@@ -224,7 +221,7 @@ static point return_to_sphere(double radius, point from, double distance, snow_d
                    radius * (cosine * axis.z + c * first.z + d * second.z)};
 }
 
-snow_site snow_source_return(const snow_source_of_walkers *source, snow_site site, snow_draws *draws)
+static snow_site come_back(const snow_source_of_walkers *source, snow_site site, snow_draws *draws)
 {
     if (source->width > 0)
         return launch_in_vessel(source, draws);
@@ -234,8 +231,16 @@ snow_site snow_source_return(const snow_source_of_walkers *source, snow_site sit
         return site_at(source->lattice, return_to_circle(radius, from, draws));
     double distance = sqrt(squared(from));
     if (snow_draws_uniform(draws) * distance >= radius)
-        return snow_source_launch(source, draws);
+        return launch(source, draws);
     return site_at(source->lattice, return_to_sphere(radius, from, distance, draws));
+}
+
+snow_site snow_source_return(const snow_source_of_walkers *source, snow_site site, snow_draws *draws)
+{
+    snow_draws_end_block(draws);
+    site = come_back(source, site, draws);
+    snow_draws_end_block(draws);
+    return site;
 }
 
 double snow_source_clear_ball(const snow_source_of_walkers *source, snow_site site)
@@ -245,17 +250,28 @@ double snow_source_clear_ball(const snow_source_of_walkers *source, snow_site si
     return sqrt(squared(point_of(source->lattice, site))) - source->rim;
 }
 
-/* By rejection; hardly any is rejected. */
+double snow_source_sphere_density(double radius, double x, double y, double z)
+{
+    double a = 1 / (radius * radius);
+    double p = x * x;
+    double q = y * y;
+    double r = z * z;
+    double pairs = p * q + q * r + r * p;
+    double product = p * q * r;
+    double fourth = 1 - 5 * pairs;
+    double sixth = 1 - 10.5 * pairs + 115.5 * product;
+    double eighth = 1 - 18 * pairs - 52 * product + 65 * pairs * pairs;
+    return 1 + 5.25 * a * (1 + 0.275 * a) * fourth + a * a * (1.625 * sixth - 11.15625 * eighth);
+}
+
+/* By rejection: most numbers need no density, and hardly any is rejected. */
 static point unit_sphere_of_lattice(double radius, snow_draws *draws)
 {
-    double tilt = 21 / (4 * radius * radius);
+    double most = 5.5 / (radius * radius); /* what the density differs from 1 by */
     for (;;) {
         point unit = unit_sphere(draws);
-        double level = snow_draws_uniform(draws) * (1 + tilt);
-        double x = unit.x * unit.x;
-        double y = unit.y * unit.y;
-        double z = unit.z * unit.z;
-        if (level < 1 - tilt || level < 1 + tilt * (2.5 * (x * x + y * y + z * z) - 1.5))
+        double level = snow_draws_uniform(draws) * (1 + most);
+        if (level < 1 - most || level < snow_source_sphere_density(radius, unit.x, unit.y, unit.z))
             return unit;
     }
 }
@@ -271,8 +287,10 @@ snow_site snow_source_sphere(snow_site site, double ball, snow_draws *draws)
 
 snow_site snow_source_circle(snow_site site, int32_t radius, snow_draws *draws)
 {
+    snow_draws_end_block(draws);
     double inside = radius * HALF_SQRT_3 - 2 - blur(draws);
     point unit = unit_circle(draws);
+    snow_draws_end_block(draws);
     point from = point_of(SNOW_AGGREGATE_HEXAGONAL, site);
     return site_at(SNOW_AGGREGATE_HEXAGONAL, (point){from.x + inside * unit.x, from.y + inside * unit.y, 0});
 }

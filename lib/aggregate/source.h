@@ -30,8 +30,8 @@ typedef struct snow_source_of_walkers {
     int32_t width, depth, lid; /* of a vessel; width 0: none, walkers come from all around; lid negative: none */
     int32_t rim;               /* all special sites are nearer to the origin, or lower, than this */
     int32_t reach;             /* the same in lattice distance */
-    int64_t far;               /* beyond this a walker is sent back */
-    int64_t safe;              /* one that is no more than this clear of the cluster, in lattice distance, is not */
+    int64_t far;               /* beyond this, in lattice distance, a walker is sent back */
+    int64_t safe;              /* so far it is from `reach` to there */
 } snow_source_of_walkers;
 
 /* Sets the distances for a cluster whose filled sites lie at squared distances
@@ -39,13 +39,12 @@ typedef struct snow_source_of_walkers {
    of about one percent, so that most particles do not change them. */
 void snow_source_fit(snow_source_of_walkers *source, int64_t farthest);
 
+/* These begin and end with a block of numbers. */
+
 /* A walker from infinity. */
 snow_site snow_source_launch(const snow_source_of_walkers *source, snow_draws *draws);
 
-/* Whether a walker is beyond `far`. */
-bool snow_source_is_beyond(const snow_source_of_walkers *source, snow_site site);
-
-/* Sends back one that is: where it comes in again. */
+/* Sends back a walker that is beyond `far`: where it comes in again. */
 snow_site snow_source_return(const snow_source_of_walkers *source, snow_site site, snow_draws *draws);
 
 /* Hexagonal lattice: from the middle of an empty hexagon to a site of a blurred
@@ -56,15 +55,19 @@ snow_site snow_source_circle(snow_site site, int32_t radius, snow_draws *draws);
 /* The radius of the ball round a walker outside the map that is free. */
 double snow_source_clear_ball(const snow_source_of_walkers *source, snow_site site);
 
-enum { SNOW_SOURCE_LEAST_BALL = 420 };
+enum { SNOW_SOURCE_LEAST_BALL = 146 };
 
 /* Cubic lattice: from the middle of an empty ball to a site of a blurred sphere
    inside. A measure has the potential of its middle, as seen from outside, if the
    mean of each polynomial that is harmonic for the lattice's walk is the value
-   there. x^4 + y^4 + z^4 - 3 (x^2 y^2 + y^2 z^2 + z^2 x^2) - r^2 is the first one
-   whose mean over a sphere is not: so the density is not constant, but
-   1 + 21/(4 r^2) (5 (x^4 + y^4 + z^4)/r^4 - 3)/2. What is left is of sixth and
-   eighth degree, less than 15/r^4 of the density: 10^-9 for the radii used. */
+   there. The first one whose mean over a sphere is not, with each site's cell, is
+   x^4 + y^4 + z^4 - 3 (x^2 y^2 + y^2 z^2 + z^2 x^2) - r^2: the density is not
+   constant. With what its harmonics of degree 4, 6 and 8 must be, all such means
+   up to degree 12 are right but for 1530/r^6 of the density: less than 10^-9 for
+   the radii used, 113 and more. */
 snow_site snow_source_sphere(snow_site site, double ball, snow_draws *draws);
+
+/* Of the point of a unit vector; uniform: 1. */
+double snow_source_sphere_density(double radius, double x, double y, double z);
 
 #endif

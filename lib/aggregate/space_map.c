@@ -284,7 +284,6 @@ static snow_space_page *page_with(snow_space_map *map, int64_t i, int64_t j, int
     snow_space_page *page = SNOW_MAP_GET(*entry);
     if (page->distance == 0)
         return page;
-    page->changed = map->landing;
     page = snow_pool_take(&map->pages);
     start_page(map, page, map->near[NEAR_REACH + 1], 0);
     SNOW_MAP_PUT_ADDRESS(*entry, page);
@@ -399,7 +398,7 @@ static void spread_tile(snow_space_map *map, int64_t i, int64_t j, int64_t k)
                 int64_t d = apart(x - i, y - j, z - k);
                 if (d >= page->distance)
                     continue;
-                page->changed = map->landing;
+                map->far[d].changed = map->landing;
                 SNOW_MAP_PUT_ADDRESS(*entry, &map->far[d]);
             }
         }

@@ -1,0 +1,384 @@
+/* Squads in the lanes of vectors: eight walkers take each step of a question together.
+
+   Looking something up is a gather. Addresses have 64 bits, so that lanes with
+   even and odd numbers are gathered apart; a `pair` holds both, each lane in the
+   lower half of 64 bits. Nothing branches: lanes whose walker has landed, or
+   needs more than one number, stand still, and are looked after when a block of
+   two numbers is used up. What is done is flight.c's, and so are the results.
+
+   One question is a chain of six gathers, each of which waits for the one before:
+   so several squads do each link of the chain after one another. */
+#include "aggregate/squad.h"
+
+#include <immintrin.h>
+
+#include <stddef.h>
+
+/* Copies for one lattice and number of squads hold no loops and no calls. */
+#define INLINE static inline __attribute__((always_inline))
+
+typedef __m256i lanes;
+
+typedef struct pair {
+    lanes even, odd;
+} pair;
+
+INLINE lanes all(uint32_t x)
+{
+    return _mm256_set1_epi32((int)x);
+}
+
+INLINE lanes load(const void *from)
+{
+    return _mm256_load_si256(from);
+}
+
+INLINE void store(void *to, lanes a)
+{
+    _mm256_store_si256(to, a);
+}
+
+/* Upper halves are left as they come. */
+INLINE pair apart(lanes a)
+{
+    return (pair){a, _mm256_srli_epi64(a, 32)};
+}
+
+/* Upper halves are zero. */
+INLINE pair apart_clean(lanes a)
+{
+    return (pair){_mm256_blend_epi32(a, _mm256_setzero_si256(), 0xAA), _mm256_srli_epi64(a, 32)};
+}
+
+INLINE lanes lower_halves(pair a)
+{
+    return _mm256_blend_epi32(a.even, _mm256_slli_epi64(a.odd, 32), 0xAA);
+}
+
+INLINE lanes upper_halves(pair a)
+{
+    return _mm256_blend_epi32(_mm256_srli_epi64(a.even, 32), a.odd, 0xAA);
+}
+
+INLINE pair plus(pair a, pair b)
+{
+    return (pair){_mm256_add_epi64(a.even, b.even), _mm256_add_epi64(a.odd, b.odd)};
+}
+
+/* Of lower halves. */
+INLINE pair product(pair a, pair b)
+{
+    return (pair){_mm256_mul_epu32(a.even, b.even), _mm256_mul_epu32(a.odd, b.odd)};
+}
+
+INLINE pair upper_to_lower(pair a)
+{
+    return (pair){_mm256_srli_epi64(a.even, 32), _mm256_srli_epi64(a.odd, 32)};
+}
+
+/* Eight bytes from each address. */
+INLINE pair fetch(pair address)
+{
+    return (pair){_mm256_i64gather_epi64(NULL, address.even, 1), _mm256_i64gather_epi64(NULL, address.odd, 1)};
+}
+
+/* The elements of an array of 64 bits each. */
+INLINE pair fetch_from(const void *array, pair index)
+{
+    return (pair){_mm256_i64gather_epi64(array, index.even, 8), _mm256_i64gather_epi64(array, index.odd, 8)};
+}
+
+/* The same where a lane's mask is set; 0 elsewhere. */
+INLINE pair fetch_some(pair address, lanes mask)
+{
+    lanes none = _mm256_setzero_si256();
+    return (pair){_mm256_mask_i64gather_epi64(none, NULL, address.even, _mm256_slli_epi64(mask, 32), 1),
+                  _mm256_mask_i64gather_epi64(none, NULL, address.odd, mask, 1)};
+}
+
+INLINE lanes choose(lanes mask, lanes yes, lanes no)
+{
+    return _mm256_blendv_epi8(no, yes, mask);
+}
+
+/* a where the sign is clear, -a where it is set. */
+INLINE lanes signed_by(lanes a, lanes sign)
+{
+    return _mm256_sign_epi32(a, _mm256_or_si256(sign, all(1)));
+}
+
+/* A number of 64 bits for each lane. */
+typedef pair numbers;
+
+enum { ROUNDS = 10 };
+
+/* Philox, see draws_kernel.c: two numbers for each lane. */
+INLINE void draw(lanes key[ROUNDS][2], const snow_lanes *walkers, numbers drawn[2])
+{
+    pair multiplier_0 = {_mm256_set1_epi64x(0xD2511F53), _mm256_set1_epi64x(0xD2511F53)};
+    pair multiplier_1 = {_mm256_set1_epi64x(0xCD9E8D57), _mm256_set1_epi64x(0xCD9E8D57)};
+    pair a = apart(_mm256_srli_epi32(load(walkers->drawn), 1));
+    pair b = apart(load(walkers->low));
+    pair c = apart(load(walkers->high));
+    pair d = {_mm256_set1_epi64x(SNOW_RANDOM_JUMPS), _mm256_set1_epi64x(SNOW_RANDOM_JUMPS)};
+    for (int round = 0; round < ROUNDS; round++) {
+        pair product_0 = product(a, multiplier_0);
+        pair product_1 = product(c, multiplier_1);
+        pair upper_0 = upper_to_lower(product_0);
+        pair upper_1 = upper_to_lower(product_1);
+        a.even = _mm256_xor_si256(_mm256_xor_si256(upper_1.even, b.even), key[round][0]);
+        a.odd = _mm256_xor_si256(_mm256_xor_si256(upper_1.odd, b.odd), key[round][0]);
+        c.even = _mm256_xor_si256(_mm256_xor_si256(upper_0.even, d.even), key[round][1]);
+        c.odd = _mm256_xor_si256(_mm256_xor_si256(upper_0.odd, d.odd), key[round][1]);
+        b = product_1;
+        d = product_0;
+    }
+    drawn[0].even = _mm256_blend_epi32(a.even, _mm256_slli_epi64(b.even, 32), 0xAA);
+    drawn[0].odd = _mm256_blend_epi32(a.odd, _mm256_slli_epi64(b.odd, 32), 0xAA);
+    drawn[1].even = _mm256_blend_epi32(c.even, _mm256_slli_epi64(d.even, 32), 0xAA);
+    drawn[1].odd = _mm256_blend_epi32(c.odd, _mm256_slli_epi64(d.odd, 32), 0xAA);
+}
+
+static void make_keys(lanes key[ROUNDS][2], uint64_t first)
+{
+    uint32_t key_0 = (uint32_t)first;
+    uint32_t key_1 = (uint32_t)(first >> 32);
+    for (int round = 0; round < ROUNDS; round++) {
+        key[round][0] = _mm256_set1_epi64x(key_0);
+        key[round][1] = _mm256_set1_epi64x(key_1);
+        key_0 += 0x9E3779B9u;
+        key_1 += 0xBB67AE85u;
+    }
+}
+
+/* What a question needs from one link of the chain to the next. */
+typedef struct question {
+    lanes x, y;
+    lanes u, v; /* from the corner of the map; 0 outside */
+    lanes inside;
+    pair page;
+    lanes near, is_close;
+    pair line;
+    lanes seen; /* 0, a class, or SNOW_MAP_BEYOND */
+    lanes radius, first;
+    pair pick, exit;
+} question;
+
+/* What follows is snow_plane_map_find() and snow_plane_page_look(). */
+INLINE void find_page(const snow_plane_map *map, question *q)
+{
+    lanes u = _mm256_sub_epi32(q->x, all((uint32_t)map->box.x));
+    lanes v = _mm256_sub_epi32(q->y, all((uint32_t)map->box.y));
+    lanes inside_u = _mm256_cmpeq_epi32(_mm256_min_epu32(u, all(map->width - 1)), u);
+    lanes inside_v = _mm256_cmpeq_epi32(_mm256_min_epu32(v, all(map->height - 1)), v);
+    q->inside = _mm256_and_si256(inside_u, inside_v);
+    q->u = _mm256_and_si256(u, q->inside);
+    q->v = _mm256_and_si256(v, q->inside);
+    /* Row and column in the halves of a lane. */
+    lanes place = _mm256_blend_epi16(_mm256_srli_epi32(q->v, 5), _mm256_slli_epi32(q->u, 11), 0xAA);
+    lanes tile = _mm256_madd_epi16(place, all(map->box.columns | 1u << 16));
+    q->page = fetch_from((const void *)map->tile, apart_clean(tile));
+}
+
+INLINE void look_near(question *q)
+{
+    lanes row = _mm256_and_si256(_mm256_slli_epi32(q->v, 1), all(56));
+    lanes column = _mm256_and_si256(_mm256_srli_epi32(q->u, 2), all(7));
+    pair byte = fetch(plus(q->page, apart_clean(_mm256_or_si256(row, column))));
+    q->near = _mm256_and_si256(lower_halves(byte), all(255));
+    q->is_close = _mm256_cmpgt_epi32(all(2), q->near);
+}
+
+INLINE void find_line(question *q)
+{
+    lanes row = _mm256_and_si256(q->v, all(16));
+    lanes column = _mm256_and_si256(_mm256_srli_epi32(q->u, 1), all(8));
+    lanes place = _mm256_add_epi32(_mm256_or_si256(row, column), all(offsetof(snow_plane_page, line)));
+    q->line = fetch_some(plus(q->page, apart_clean(place)), q->is_close);
+}
+
+/* Two rows of a line at once: eight bytes. */
+INLINE void look_closely(question *q)
+{
+    lanes two_rows = _mm256_slli_epi32(_mm256_and_si256(q->v, all(14)), 2);
+    pair code = fetch_some(plus(q->line, apart_clean(two_rows)), q->is_close);
+    lanes row = _mm256_slli_epi32(_mm256_and_si256(q->v, all(1)), 5);
+    lanes column = _mm256_slli_epi32(_mm256_and_si256(q->u, all(15)), 1);
+    pair bit = apart_clean(_mm256_or_si256(row, column));
+    code.even = _mm256_srlv_epi64(code.even, bit.even);
+    code.odd = _mm256_srlv_epi64(code.odd, bit.odd);
+    lanes exact = _mm256_and_si256(_mm256_andnot_si256(lower_halves(code), all(3)), q->is_close);
+    q->seen = choose(q->inside, _mm256_max_epu32(q->near, exact), all(SNOW_MAP_BEYOND));
+}
+
+/* The class of what is free outside the map: snow_exits_class_near(). */
+INLINE lanes class_outside(const snow_ground *ground, bool hexagonal, const question *q)
+{
+    lanes most = _mm256_max_epi32(_mm256_abs_epi32(q->x), _mm256_abs_epi32(q->y));
+    if (hexagonal)
+        most = _mm256_max_epi32(most, _mm256_abs_epi32(_mm256_add_epi32(q->x, q->y)));
+    lanes clear = _mm256_sub_epi32(most, all((uint32_t)ground->source.reach));
+    /* The exponent and three more bits. */
+    lanes bits = _mm256_srli_epi32(_mm256_castps_si256(_mm256_cvtepi32_ps(clear)), 20);
+    lanes part = _mm256_min_epu32(_mm256_sub_epi32(bits, all(127 << 3)), all(SNOW_EXIT_OCTAVES * SNOW_EXIT_PARTS - 1));
+    lanes outside = _mm256_xor_si256(q->inside, all(UINT32_MAX));
+    lanes class = _mm256_mask_i32gather_epi32(_mm256_setzero_si256(), (const void *)ground->exits.class_from, part,
+                                              outside, 1);
+    lanes is_beyond = _mm256_cmpgt_epi32(clear, all((uint32_t)ground->source.safe));
+    return choose(is_beyond, all(SNOW_MAP_BEYOND), _mm256_and_si256(class, all(255)));
+}
+
+INLINE void find_table(const snow_ground *ground, bool hexagonal, question *q)
+{
+    lanes class = choose(q->inside, q->seen, class_outside(ground, hexagonal, q));
+    lanes place = _mm256_i32gather_epi32((const int *)ground->exits.place, class, 4);
+    q->radius = _mm256_and_si256(place, all((1u << SNOW_EXIT_RADIUS_BITS) - 1));
+    q->first = _mm256_srli_epi32(place, SNOW_EXIT_RADIUS_BITS);
+}
+
+/* snow_exit_table_pick() */
+INLINE void find_exit(const snow_exits *exits, question *q, numbers number)
+{
+    pair columns = apart(q->radius);
+    q->pick = plus(product(upper_to_lower(number), columns), upper_to_lower(product(number, columns)));
+    q->exit = fetch_from(exits->exit, plus(upper_to_lower(q->pick), apart_clean(q->first)));
+}
+
+INLINE lanes offset_of(const question *q)
+{
+    lanes place = lower_halves(q->pick);
+    lanes is_from = _mm256_cmpeq_epi32(_mm256_max_epu32(place, lower_halves(q->exit)), place);
+    lanes outcome = _mm256_srlv_epi32(upper_halves(q->exit), _mm256_and_si256(is_from, all(16)));
+    return _mm256_and_si256(outcome, all(0xFFFF));
+}
+
+INLINE void jump_square(question *q, numbers number)
+{
+    lanes symmetry = lower_halves(number);
+    lanes along = signed_by(offset_of(q), _mm256_slli_epi32(symmetry, 31));
+    lanes across = signed_by(q->radius, _mm256_slli_epi32(symmetry, 30));
+    lanes swaps = _mm256_srai_epi32(_mm256_slli_epi32(symmetry, 29), 31);
+    q->x = _mm256_add_epi32(q->x, choose(swaps, across, along));
+    q->y = _mm256_add_epi32(q->y, choose(swaps, along, across));
+}
+
+/* a times the element of a table of -1, 0 and 1. */
+INLINE lanes directed(lanes a, lanes table, lanes side)
+{
+    return _mm256_sign_epi32(a, _mm256_permutevar8x32_epi32(table, side));
+}
+
+INLINE void jump_hexagonal(question *q, numbers number)
+{
+    const lanes corner_q = _mm256_setr_epi32(1, 0, -1, -1, 0, 1, 0, 0);
+    const lanes corner_r = _mm256_setr_epi32(0, 1, 1, 0, -1, -1, 0, 0);
+    const lanes side_q = _mm256_setr_epi32(-1, -1, 0, 1, 1, 0, 0, 0);
+    const lanes side_r = _mm256_setr_epi32(1, 0, -1, -1, 0, 1, 0, 0);
+    const pair six = {all(6), all(6)};
+    lanes side = upper_halves(product(number, six));
+    lanes offset = offset_of(q);
+    q->x = _mm256_add_epi32(q->x, _mm256_add_epi32(directed(q->radius, corner_q, side), directed(offset, side_q, side)));
+    q->y = _mm256_add_epi32(q->y, _mm256_add_epi32(directed(q->radius, corner_r, side), directed(offset, side_r, side)));
+}
+
+INLINE void jump(bool hexagonal, question *q, numbers number)
+{
+    if (hexagonal)
+        jump_hexagonal(q, number);
+    else
+        jump_square(q, number);
+}
+
+#define EACH(i) _Pragma("GCC unroll 4") for (int i = 0; i < count; i++)
+
+/* All ask a question, each with its half of a block of numbers, and jump. Who cannot has a radius of 0. */
+INLINE void go_on(const snow_ground *ground, bool hexagonal, question *q, snow_squad *squads,
+                         numbers (*block)[2], uint32_t half, int count)
+{
+    EACH(i) {
+        snow_row *row = snow_squad_row(&squads[i], squads[i].next);
+        store(row->x, q[i].x);
+        store(row->y, q[i].y);
+        store(row->drawn, _mm256_add_epi32(load(squads[i].lanes.drawn), all(half)));
+    }
+    EACH(i) find_page(&ground->plane, &q[i]);
+    EACH(i) look_near(&q[i]);
+    EACH(i) find_line(&q[i]);
+    EACH(i) look_closely(&q[i]);
+    EACH(i) store(snow_squad_row(&squads[i], squads[i].next++)->answer, q[i].seen);
+    EACH(i) find_table(ground, hexagonal, &q[i]);
+    EACH(i) find_exit(&ground->exits, &q[i], block[i][half]);
+    EACH(i) jump(hexagonal, &q[i], block[i][half]);
+}
+
+INLINE lanes stays(const question *q)
+{
+    return _mm256_cmpeq_epi32(q->radius, _mm256_setzero_si256());
+}
+
+/* Two questions of each. In `still` are the lanes that did not move at the second one. */
+INLINE void use_block(const snow_ground *ground, bool hexagonal, lanes key[ROUNDS][2], snow_squad *squads,
+                             uint32_t *still, int count)
+{
+    question q[SNOW_SQUADS];
+    numbers block[SNOW_SQUADS][2];
+    lanes at_once[SNOW_SQUADS];
+    EACH(i) draw(key, &squads[i].lanes, block[i]);
+    EACH(i) q[i].x = load(squads[i].lanes.x);
+    EACH(i) q[i].y = load(squads[i].lanes.y);
+    go_on(ground, hexagonal, q, squads, block, 0, count);
+    EACH(i) at_once[i] = stays(&q[i]);
+    go_on(ground, hexagonal, q, squads, block, 1, count);
+    EACH(i) {
+        snow_lanes *walkers = &squads[i].lanes;
+        store(walkers->x, q[i].x);
+        store(walkers->y, q[i].y);
+        /* Those who stood still from the first have not used the block. */
+        store(walkers->drawn, _mm256_add_epi32(load(walkers->drawn), _mm256_andnot_si256(at_once[i], all(2))));
+        still[i] = (uint32_t)_mm256_movemask_ps(_mm256_castsi256_ps(stays(&q[i]))) & squads[i].busy;
+    }
+}
+
+/* So many blocks can be used before a ring is full. */
+static uint32_t blocks_left(const snow_squad *squads, int count)
+{
+    uint32_t least = UINT32_MAX;
+    for (int i = 0; i < count; i++) {
+        uint32_t rows = squads[i].stop - squads[i].next;
+        least = rows < least ? rows : least;
+    }
+    return least / 2;
+}
+
+INLINE void walk(const snow_ground *ground, bool hexagonal, snow_squad *squads, int count)
+{
+    lanes key[ROUNDS][2];
+    make_keys(key, squads[0].key);
+    uint32_t landed = 0;
+    for (uint32_t blocks = blocks_left(squads, count); blocks > 0 && landed == 0; blocks--) {
+        uint32_t still[SNOW_SQUADS];
+        use_block(ground, hexagonal, key, squads, still, count);
+        for (int i = 0; i < count; i++) {
+            if (still[i] != 0)
+                snow_squad_help(ground, &squads[i], still[i]);
+            landed |= squads[i].landed & squads[i].busy;
+        }
+    }
+}
+
+INLINE void walk_together(const snow_ground *ground, bool hexagonal, snow_squad *squads, int count)
+{
+    switch (count) {
+    case 1: walk(ground, hexagonal, squads, 1); break;
+    case 2: walk(ground, hexagonal, squads, 2); break;
+    default: walk(ground, hexagonal, squads, SNOW_SQUADS); break;
+    }
+}
+
+void snow_squads_walk_avx2(const snow_ground *ground, snow_squad *squads, int count)
+{
+    if (ground->exits.lattice == SNOW_AGGREGATE_HEXAGONAL)
+        walk_together(ground, true, squads, count);
+    else
+        walk_together(ground, false, squads, count);
+}
