@@ -27,14 +27,16 @@ snow_status snow_ahead_start(snow_ahead *ahead, snow_heap *heap, int threads, bo
     size_t rings = (size_t)threads * (size_t)squads;
     ahead->voyage = snow_heap_get(heap, window, sizeof *ahead->voyage);
     ahead->party = snow_heap_get(heap, (size_t)threads, sizeof *ahead->party);
-    ahead->rows = snow_heap_get_raw(heap, rings * room, sizeof *ahead->rows);
-    if (ahead->voyage == NULL || ahead->party == NULL || ahead->rows == NULL) {
+    ahead->rows = snow_heap_get(heap, rings * room, sizeof *ahead->rows);
+    ahead->heights = space ? snow_heap_get(heap, rings * room, sizeof *ahead->heights) : NULL;
+    if (ahead->voyage == NULL || ahead->party == NULL || ahead->rows == NULL || (space && ahead->heights == NULL)) {
         snow_ahead_end(ahead, heap);
         return heap->refusal;
     }
     for (size_t i = 0; i < rings; i++) {
         snow_squad *squad = &ahead->party[i / (size_t)squads].squad[i % (size_t)squads];
         squad->rows = ahead->rows + i * room;
+        squad->heights = space ? ahead->heights + i * room : NULL;
         squad->room = room;
     }
     atomic_flag_clear(&ahead->settling);
@@ -47,9 +49,11 @@ snow_status snow_ahead_start(snow_ahead *ahead, snow_heap *heap, int threads, bo
 
 void snow_ahead_end(snow_ahead *ahead, snow_heap *heap)
 {
+    snow_heap_put(heap, ahead->heights);
     snow_heap_put(heap, ahead->rows);
     snow_heap_put(heap, ahead->party);
     snow_heap_put(heap, ahead->voyage);
+    ahead->heights = NULL;
     ahead->rows = NULL;
     ahead->party = NULL;
     ahead->voyage = NULL;
@@ -144,7 +148,7 @@ static void finish(const snow_ahead *ahead, snow_party *own, int i, int lane)
     snow_voyage *voyage = own->voyage[i][lane];
     voyage->end = own->squad[i].next;
     voyage->stay = snow_squad_leave(ahead->ground, &own->squad[i], lane);
-    atomic_store(&voyage->done, voyage->walker + 1);
+    atomic_store_explicit(&voyage->done, voyage->walker + 1, memory_order_release);
 }
 
 /* Those who have landed, and one whose diary has filled the ring. */
@@ -190,8 +194,8 @@ static void correct(snow_ahead *ahead, snow_voyage *voyage)
 {
     if (voyage->settled == voyage->walker)
         return;
-    uint32_t row = snow_squad_outdated(ahead->ground, voyage->squad, voyage->lane, voyage->first, voyage->end,
-                                       voyage->settled);
+    uint32_t row = ahead->ground->outdated(ahead->ground, voyage->squad, voyage->lane, voyage->first, voyage->end,
+                                           voyage->settled);
     if (row == voyage->end)
         return;
     ahead->repeats++;
@@ -217,7 +221,7 @@ static void settle_one(snow_ahead *ahead, snow_voyage *voyage, uint64_t walker)
 {
     snow_site site = arrive(ahead, voyage);
     bool goes_on = ahead->land(ahead->context, walker, site);
-    atomic_store(&ahead->settled, walker + 1);
+    atomic_store_explicit(&ahead->settled, walker + 1, memory_order_release);
     if (!goes_on)
         atomic_store(&ahead->ended, true);
 }
@@ -240,7 +244,7 @@ static void settle(snow_ahead *ahead)
             break;
         settle_one(ahead, voyage, walker);
     }
-    atomic_flag_clear(&ahead->settling);
+    atomic_flag_clear_explicit(&ahead->settling, memory_order_release);
 }
 
 static SNOW_APART void work(snow_ahead *ahead, snow_party *own)

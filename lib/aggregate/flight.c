@@ -291,14 +291,15 @@ COPIED void put_at(snow_flight *flight, manner how, snow_site site)
         flight->z = site.z;
 }
 
-COPIED void note(snow_row *row, int lane, manner how, const snow_flight *flight, uint32_t answer)
+COPIED void note(const snow_squad *squad, int lane, manner how, const snow_flight *flight, uint32_t answer)
 {
+    snow_row *row = snow_squad_row(squad, squad->next);
     row->x[lane] = flight->x;
     row->y[lane] = flight->y;
     row->answer[lane] = answer;
     row->drawn[lane] = flight->draws.used;
     if (how.lattice == SNOW_AGGREGATE_CUBIC)
-        row->z[lane] = flight->z;
+        snow_squad_heights(squad, squad->next)->z[lane] = flight->z;
 }
 
 #if defined(__GNUC__)
@@ -327,18 +328,18 @@ COPIED void all_go_on(const snow_ground *ground, manner how, snow_squad *squad)
 {
     if (how.lattice == SNOW_AGGREGATE_CUBIC)
         fetch_ahead(&ground->space, squad);
-    snow_row *row = snow_squad_row(squad, squad->next++);
     for (int lane = 0; lane < SNOW_LANES; lane++) {
         if (RARE((squad->busy >> lane & 1) == 0))
             continue;
         snow_flight *flight = &squad->flight[lane];
         snow_site site = site_of(flight, how);
         uint32_t answer = see(ground, how.lattice, how.careful, site);
-        note(row, lane, how, flight, answer);
+        note(squad, lane, how, flight, answer);
         if (RARE(advance(ground, how, &site, &flight->draws, answer)))
             squad->landed |= 1u << lane;
         put_at(flight, how, site);
     }
+    squad->next++;
 }
 
 COPIED void walk_in_turn(const snow_ground *ground, manner how, snow_squad *squads, int count)
@@ -438,24 +439,19 @@ void snow_squad_help(const snow_ground *ground, snow_squad *squad, uint32_t stil
     }
 }
 
-COPIED uint32_t outdated(const snow_ground *ground, manner how, const snow_squad *squad, int lane, uint32_t first,
-                         uint32_t end, uint64_t since)
+bool snow_squad_is_outdated(const snow_ground *ground, const snow_squad *squad, int lane, uint32_t row)
 {
-    for (uint32_t i = first; i != end; i++) {
-        const snow_row *row = snow_squad_row(squad, i);
-        snow_site site = {row->x[lane], row->y[lane], how.lattice == SNOW_AGGREGATE_CUBIC ? row->z[lane] : 0};
-        if (RARE(has_changed(ground, how.lattice, site, since)) &&
-            see(ground, how.lattice, how.careful, site) != row->answer[lane])
-            return i;
-    }
-    return end;
+    manner how = manner_of(ground);
+    snow_site site = snow_squad_asked(squad, lane, row).site;
+    return see(ground, how.lattice, how.careful, site) != snow_squad_row(squad, row)->answer[lane];
 }
 
 uint32_t snow_squad_outdated(const snow_ground *ground, const snow_squad *squad, int lane, uint32_t first, uint32_t end,
                              uint64_t since)
 {
-    manner how = manner_of(ground);
-    if (how.lattice == SNOW_AGGREGATE_CUBIC || how.careful)
-        return outdated(ground, how, squad, lane, first, end, since);
-    return outdated(ground, (manner){SNOW_AGGREGATE_SQUARE, false, false}, squad, lane, first, end, since);
+    for (uint32_t row = first; row != end; row++)
+        if (RARE(has_changed(ground, ground->exits.lattice, snow_squad_asked(squad, lane, row).site, since)) &&
+            snow_squad_is_outdated(ground, squad, lane, row))
+            return row;
+    return end;
 }

@@ -11,7 +11,10 @@
 typedef struct snow_ground snow_ground;
 typedef struct snow_squad snow_squad;
 
+/* See squad.h. */
 typedef void (*snow_squads_walk)(const snow_ground *ground, snow_squad *squads, int count);
+typedef uint32_t (*snow_squads_outdated)(const snow_ground *ground, const snow_squad *squad, int lane, uint32_t first,
+                                         uint32_t end, uint64_t since);
 
 /* What walkers meet. They only read it. */
 struct snow_ground {
@@ -20,6 +23,7 @@ struct snow_ground {
     bool careful; /* walkers may go on from special sites: stick < 1, entry, or obstacles */
     snow_draws_refill refill;
     snow_squads_walk walk;
+    snow_squads_outdated outdated;
     snow_source_of_walkers source;
     snow_exits exits;
     snow_plane_map plane; /* the one or the other */

@@ -91,7 +91,7 @@ static snow_status fit(snow_growth *growth, snow_heap *heap, int64_t farthest)
         status = widen(growth, heap, &source);
         if (status == SNOW_OK)
             growth->ground.source = source;
-        growth->ground.walk = snow_squads_choose(&growth->ground, growth->rules.isa);
+        snow_squads_choose(&growth->ground, growth->rules.isa);
         snow_ahead_resume(&growth->ahead);
     }
     if (status == SNOW_OK)
@@ -145,7 +145,7 @@ static snow_status start_map(snow_growth *growth, snow_heap *heap)
     else
         status = snow_plane_map_start(&ground->plane, heap, &ground->exits, ground->careful,
                                       plane_box(&ground->source));
-    ground->walk = snow_squads_choose(ground, rules->isa);
+    snow_squads_choose(ground, rules->isa);
     return status == SNOW_OK && rules->width > 0 ? add_floor(growth, heap) : status;
 }
 

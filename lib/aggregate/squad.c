@@ -9,16 +9,22 @@ static bool is_for_lanes(const snow_ground *ground)
 }
 #endif
 
-snow_squads_walk snow_squads_choose(const snow_ground *ground, snow_isa isa)
+void snow_squads_choose(snow_ground *ground, snow_isa isa)
 {
+    ground->walk = snow_squads_walk_in_turn;
+    ground->outdated = snow_squad_outdated;
 #ifdef SNOW_HAVE_X86_KERNELS
-    if ((isa == SNOW_ISA_AVX2 || isa == SNOW_ISA_AVX512) && is_for_lanes(ground))
-        return snow_squads_walk_avx2;
+    if (is_for_lanes(ground) && isa == SNOW_ISA_AVX2) {
+        ground->walk = snow_squads_walk_avx2;
+        ground->outdated = snow_squad_outdated_avx2;
+    }
+    if (is_for_lanes(ground) && isa == SNOW_ISA_AVX512) {
+        ground->walk = snow_squads_walk_avx512;
+        ground->outdated = snow_squad_outdated_avx512;
+    }
 #else
-    (void)ground;
     (void)isa;
 #endif
-    return snow_squads_walk_in_turn;
 }
 
 void snow_squad_enter(snow_squad *squad, int lane)
@@ -47,5 +53,6 @@ snow_stay snow_squad_leave(const snow_ground *ground, snow_squad *squad, int lan
 snow_stay snow_squad_asked(const snow_squad *squad, int lane, uint32_t row)
 {
     const snow_row *asked = snow_squad_row(squad, row);
-    return (snow_stay){{asked->x[lane], asked->y[lane], asked->z[lane]}, asked->drawn[lane], false};
+    int32_t z = squad->heights != NULL ? snow_squad_heights(squad, row)->z[lane] : 0;
+    return (snow_stay){{asked->x[lane], asked->y[lane], z}, asked->drawn[lane], false};
 }

@@ -13,12 +13,16 @@ enum { SNOW_LANES = 8, SNOW_SQUADS = 3 /* that walk together, at most */ };
 /* What they asked, what they were told, and how many numbers they had used: while
    the same questions have the same answers, walkers walk the same way. */
 typedef struct snow_row {
-    _Alignas(32) int32_t x[SNOW_LANES];
+    _Alignas(64) int32_t x[SNOW_LANES]; /* x and y are in one cache line */
     int32_t y[SNOW_LANES];
     uint32_t answer[SNOW_LANES];
     uint32_t drawn[SNOW_LANES];
-    int32_t z[SNOW_LANES]; /* in space */
 } snow_row;
+
+/* The third coordinate. */
+typedef struct snow_heights {
+    int32_t z[SNOW_LANES];
+} snow_heights;
 
 /* Where walkers are that walk in the lanes of vectors, and their numbers, in halves. */
 typedef struct snow_lanes {
@@ -36,6 +40,7 @@ struct snow_squad {
     uint32_t landed;                /* lanes in which somebody has landed */
     uint64_t key;                   /* of all their streams */
     snow_row *rows;
+    snow_heights *heights; /* as many; NULL in the plane */
     uint32_t room; /* so many rows: a power of two */
     uint32_t next; /* the row that is written next */
     uint32_t stop; /* here the ring is full */
@@ -46,10 +51,16 @@ static inline snow_row *snow_squad_row(const snow_squad *squad, uint32_t row)
     return &squad->rows[row & (squad->room - 1)];
 }
 
-/* How they walk on this ground: until somebody has landed, or a ring is full. */
-snow_squads_walk snow_squads_choose(const snow_ground *ground, snow_isa isa);
+static inline snow_heights *snow_squad_heights(const snow_squad *squad, uint32_t row)
+{
+    return &squad->heights[row & (squad->room - 1)];
+}
+
+/* How they walk on this ground, until somebody has landed, or a ring is full; and how diaries are looked through. */
+void snow_squads_choose(snow_ground *ground, snow_isa isa);
 void snow_squads_walk_in_turn(const snow_ground *ground, snow_squad *squads, int count);
 void snow_squads_walk_avx2(const snow_ground *ground, snow_squad *squads, int count);
+void snow_squads_walk_avx512(const snow_ground *ground, snow_squad *squads, int count);
 
 /* For lanes, when in some the walker has stood still for a row: those that have landed
    are marked, others are helped with what takes whole blocks of numbers. */
@@ -68,5 +79,12 @@ snow_stay snow_squad_asked(const snow_squad *squad, int lane, uint32_t row);
    told by then changed last by landing number `since`; `end` if there is none. */
 uint32_t snow_squad_outdated(const snow_ground *ground, const snow_squad *squad, int lane, uint32_t first, uint32_t end,
                              uint64_t since);
+uint32_t snow_squad_outdated_avx2(const snow_ground *ground, const snow_squad *squad, int lane, uint32_t first,
+                                  uint32_t end, uint64_t since);
+uint32_t snow_squad_outdated_avx512(const snow_ground *ground, const snow_squad *squad, int lane, uint32_t first,
+                                    uint32_t end, uint64_t since);
+
+/* One row. */
+bool snow_squad_is_outdated(const snow_ground *ground, const snow_squad *squad, int lane, uint32_t row);
 
 #endif

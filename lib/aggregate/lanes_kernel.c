@@ -1,9 +1,8 @@
 /* Squads in the lanes of vectors: eight walkers take each step of a question together.
+   Compiled for AVX2 and for AVX-512, with SNOW_KERNEL naming it.
 
-   Looking something up is a gather. Addresses have 64 bits, so that lanes with
-   even and odd numbers are gathered apart; a `pair` holds both, each lane in the
-   lower half of 64 bits. Nothing branches: lanes whose walker has landed, or
-   needs more than one number, stand still, and are looked after when a block of
+   Looking something up is a gather. Nothing branches: lanes whose walker has landed,
+   or needs more than one number, stand still, and are looked after when a block of
    two numbers is used up. What is done is flight.c's, and so are the results.
 
    One question is a chain of six gathers, each of which waits for the one before:
@@ -14,14 +13,13 @@
 
 #include <stddef.h>
 
+#define PASTE(a, b) a##b
+#define NAME(a, b) PASTE(a, b)
+
 /* Copies for one lattice and number of squads hold no loops and no calls. */
 #define INLINE static inline __attribute__((always_inline))
 
 typedef __m256i lanes;
-
-typedef struct pair {
-    lanes even, odd;
-} pair;
 
 INLINE lanes all(uint32_t x)
 {
@@ -38,64 +36,6 @@ INLINE void store(void *to, lanes a)
     _mm256_store_si256(to, a);
 }
 
-/* Upper halves are left as they come. */
-INLINE pair apart(lanes a)
-{
-    return (pair){a, _mm256_srli_epi64(a, 32)};
-}
-
-/* Upper halves are zero. */
-INLINE pair apart_clean(lanes a)
-{
-    return (pair){_mm256_blend_epi32(a, _mm256_setzero_si256(), 0xAA), _mm256_srli_epi64(a, 32)};
-}
-
-INLINE lanes lower_halves(pair a)
-{
-    return _mm256_blend_epi32(a.even, _mm256_slli_epi64(a.odd, 32), 0xAA);
-}
-
-INLINE lanes upper_halves(pair a)
-{
-    return _mm256_blend_epi32(_mm256_srli_epi64(a.even, 32), a.odd, 0xAA);
-}
-
-INLINE pair plus(pair a, pair b)
-{
-    return (pair){_mm256_add_epi64(a.even, b.even), _mm256_add_epi64(a.odd, b.odd)};
-}
-
-/* Of lower halves. */
-INLINE pair product(pair a, pair b)
-{
-    return (pair){_mm256_mul_epu32(a.even, b.even), _mm256_mul_epu32(a.odd, b.odd)};
-}
-
-INLINE pair upper_to_lower(pair a)
-{
-    return (pair){_mm256_srli_epi64(a.even, 32), _mm256_srli_epi64(a.odd, 32)};
-}
-
-/* Eight bytes from each address. */
-INLINE pair fetch(pair address)
-{
-    return (pair){_mm256_i64gather_epi64(NULL, address.even, 1), _mm256_i64gather_epi64(NULL, address.odd, 1)};
-}
-
-/* The elements of an array of 64 bits each. */
-INLINE pair fetch_from(const void *array, pair index)
-{
-    return (pair){_mm256_i64gather_epi64(array, index.even, 8), _mm256_i64gather_epi64(array, index.odd, 8)};
-}
-
-/* The same where a lane's mask is set; 0 elsewhere. */
-INLINE pair fetch_some(pair address, lanes mask)
-{
-    lanes none = _mm256_setzero_si256();
-    return (pair){_mm256_mask_i64gather_epi64(none, NULL, address.even, _mm256_slli_epi64(mask, 32), 1),
-                  _mm256_mask_i64gather_epi64(none, NULL, address.odd, mask, 1)};
-}
-
 INLINE lanes choose(lanes mask, lanes yes, lanes no)
 {
     return _mm256_blendv_epi8(no, yes, mask);
@@ -107,47 +47,176 @@ INLINE lanes signed_by(lanes a, lanes sign)
     return _mm256_sign_epi32(a, _mm256_or_si256(sign, all(1)));
 }
 
-/* A number of 64 bits for each lane. */
-typedef pair numbers;
+/* Addresses and random numbers have 64 bits: a wide is one for each lane. */
+#if defined(__AVX512F__)
+typedef __m512i wide;
+
+INLINE wide every(uint64_t x)
+{
+    return _mm512_set1_epi64((long long)x);
+}
+
+INLINE wide widened(lanes a)
+{
+    return _mm512_cvtepu32_epi64(a);
+}
+
+INLINE lanes lower_halves(wide a)
+{
+    return _mm512_cvtepi64_epi32(a);
+}
+
+INLINE wide plus(wide a, wide b)
+{
+    return _mm512_add_epi64(a, b);
+}
+
+/* Of lower halves. */
+INLINE wide product(wide a, wide b)
+{
+    return _mm512_mul_epu32(a, b);
+}
+
+INLINE wide shifted_down(wide a, wide bits)
+{
+    return _mm512_srlv_epi64(a, bits);
+}
+
+INLINE wide upper_to_lower(wide a)
+{
+    return _mm512_srli_epi64(a, 32);
+}
+
+/* Of their lower halves. */
+INLINE wide joined(wide upper, wide lower)
+{
+    return _mm512_mask_blend_epi32(0xAAAA, lower, _mm512_slli_epi64(upper, 32));
+}
+
+INLINE wide xor(wide a, wide b, wide c)
+{
+    return _mm512_ternarylogic_epi64(a, b, c, 0x96);
+}
+
+/* Eight bytes from each address. */
+INLINE wide fetch(wide address)
+{
+    return _mm512_i64gather_epi64(address, NULL, 1);
+}
+
+/* The same where a lane's mask is set; 0 elsewhere. */
+INLINE wide fetch_some(wide address, lanes mask)
+{
+    return _mm512_mask_i64gather_epi64(_mm512_setzero_si512(), _mm256_movepi32_mask(mask), address, NULL, 1);
+}
+
+/* The elements of an array of 64 bits each. */
+INLINE wide fetch_from(const void *array, wide index)
+{
+    return _mm512_i64gather_epi64(index, array, 8);
+}
+#else
+/* Two vectors: lanes with even and with odd numbers. */
+typedef struct wide {
+    lanes even, odd;
+} wide;
+
+INLINE wide every(uint64_t x)
+{
+    return (wide){_mm256_set1_epi64x((long long)x), _mm256_set1_epi64x((long long)x)};
+}
+
+INLINE wide widened(lanes a)
+{
+    return (wide){_mm256_blend_epi32(a, _mm256_setzero_si256(), 0xAA), _mm256_srli_epi64(a, 32)};
+}
+
+INLINE lanes lower_halves(wide a)
+{
+    return _mm256_blend_epi32(a.even, _mm256_slli_epi64(a.odd, 32), 0xAA);
+}
+
+INLINE wide plus(wide a, wide b)
+{
+    return (wide){_mm256_add_epi64(a.even, b.even), _mm256_add_epi64(a.odd, b.odd)};
+}
+
+/* Of lower halves. */
+INLINE wide product(wide a, wide b)
+{
+    return (wide){_mm256_mul_epu32(a.even, b.even), _mm256_mul_epu32(a.odd, b.odd)};
+}
+
+INLINE wide shifted_down(wide a, wide bits)
+{
+    return (wide){_mm256_srlv_epi64(a.even, bits.even), _mm256_srlv_epi64(a.odd, bits.odd)};
+}
+
+INLINE wide upper_to_lower(wide a)
+{
+    return (wide){_mm256_srli_epi64(a.even, 32), _mm256_srli_epi64(a.odd, 32)};
+}
+
+/* Of their lower halves. */
+INLINE wide joined(wide upper, wide lower)
+{
+    return (wide){_mm256_blend_epi32(lower.even, _mm256_slli_epi64(upper.even, 32), 0xAA),
+                  _mm256_blend_epi32(lower.odd, _mm256_slli_epi64(upper.odd, 32), 0xAA)};
+}
+
+INLINE wide xor(wide a, wide b, wide c)
+{
+    return (wide){_mm256_xor_si256(_mm256_xor_si256(a.even, b.even), c.even),
+                  _mm256_xor_si256(_mm256_xor_si256(a.odd, b.odd), c.odd)};
+}
+
+/* Eight bytes from each address. */
+INLINE wide fetch(wide address)
+{
+    return (wide){_mm256_i64gather_epi64(NULL, address.even, 1), _mm256_i64gather_epi64(NULL, address.odd, 1)};
+}
+
+/* The same where a lane's mask is set; 0 elsewhere. */
+INLINE wide fetch_some(wide address, lanes mask)
+{
+    const lanes none = _mm256_setzero_si256();
+    return (wide){_mm256_mask_i64gather_epi64(none, NULL, address.even, _mm256_slli_epi64(mask, 32), 1),
+                  _mm256_mask_i64gather_epi64(none, NULL, address.odd, mask, 1)};
+}
+
+/* The elements of an array of 64 bits each. */
+INLINE wide fetch_from(const void *array, wide index)
+{
+    return (wide){_mm256_i64gather_epi64(array, index.even, 8), _mm256_i64gather_epi64(array, index.odd, 8)};
+}
+#endif
 
 enum { ROUNDS = 10 };
 
-/* Philox, see draws_kernel.c: two numbers for each lane. */
-INLINE void draw(lanes key[ROUNDS][2], const snow_lanes *walkers, numbers drawn[2])
+/* Philox, as in draws_kernel.c: the block that each comes to. */
+INLINE void draw(const uint64_t *key, const snow_lanes *walkers, wide number[2])
 {
-    pair multiplier_0 = {_mm256_set1_epi64x(0xD2511F53), _mm256_set1_epi64x(0xD2511F53)};
-    pair multiplier_1 = {_mm256_set1_epi64x(0xCD9E8D57), _mm256_set1_epi64x(0xCD9E8D57)};
-    pair a = apart(_mm256_srli_epi32(load(walkers->drawn), 1));
-    pair b = apart(load(walkers->low));
-    pair c = apart(load(walkers->high));
-    pair d = {_mm256_set1_epi64x(SNOW_RANDOM_JUMPS), _mm256_set1_epi64x(SNOW_RANDOM_JUMPS)};
+    wide a = widened(_mm256_srli_epi32(load(walkers->drawn), 1));
+    wide b = widened(load(walkers->low));
+    wide c = widened(load(walkers->high));
+    wide d = every(SNOW_RANDOM_JUMPS);
     for (int round = 0; round < ROUNDS; round++) {
-        pair product_0 = product(a, multiplier_0);
-        pair product_1 = product(c, multiplier_1);
-        pair upper_0 = upper_to_lower(product_0);
-        pair upper_1 = upper_to_lower(product_1);
-        a.even = _mm256_xor_si256(_mm256_xor_si256(upper_1.even, b.even), key[round][0]);
-        a.odd = _mm256_xor_si256(_mm256_xor_si256(upper_1.odd, b.odd), key[round][0]);
-        c.even = _mm256_xor_si256(_mm256_xor_si256(upper_0.even, d.even), key[round][1]);
-        c.odd = _mm256_xor_si256(_mm256_xor_si256(upper_0.odd, d.odd), key[round][1]);
+        wide product_0 = product(a, every(0xD2511F53));
+        wide product_1 = product(c, every(0xCD9E8D57));
+        a = xor(upper_to_lower(product_1), b, every(key[2 * round]));
+        c = xor(upper_to_lower(product_0), d, every(key[2 * round + 1]));
         b = product_1;
         d = product_0;
     }
-    drawn[0].even = _mm256_blend_epi32(a.even, _mm256_slli_epi64(b.even, 32), 0xAA);
-    drawn[0].odd = _mm256_blend_epi32(a.odd, _mm256_slli_epi64(b.odd, 32), 0xAA);
-    drawn[1].even = _mm256_blend_epi32(c.even, _mm256_slli_epi64(d.even, 32), 0xAA);
-    drawn[1].odd = _mm256_blend_epi32(c.odd, _mm256_slli_epi64(d.odd, 32), 0xAA);
+    number[0] = joined(b, a);
+    number[1] = joined(d, c);
 }
 
-static void make_keys(lanes key[ROUNDS][2], uint64_t first)
+static void make_keys(uint64_t key[2 * ROUNDS], uint64_t first)
 {
-    uint32_t key_0 = (uint32_t)first;
-    uint32_t key_1 = (uint32_t)(first >> 32);
-    for (int round = 0; round < ROUNDS; round++) {
-        key[round][0] = _mm256_set1_epi64x(key_0);
-        key[round][1] = _mm256_set1_epi64x(key_1);
-        key_0 += 0x9E3779B9u;
-        key_1 += 0xBB67AE85u;
+    for (uint32_t round = 0; round < ROUNDS; round++) {
+        key[2 * round] = (uint32_t)first + round * 0x9E3779B9u;
+        key[2 * round + 1] = (uint32_t)(first >> 32) + round * 0xBB67AE85u;
     }
 }
 
@@ -156,16 +225,16 @@ typedef struct question {
     lanes x, y;
     lanes u, v; /* from the corner of the map; 0 outside */
     lanes inside;
-    pair page;
+    wide page;
     lanes near, is_close;
-    pair line;
+    wide line;
     lanes seen; /* 0, a class, or SNOW_MAP_BEYOND */
     lanes radius, first;
-    pair pick, exit;
+    wide pick, exit;
 } question;
 
-/* What follows is snow_plane_map_find() and snow_plane_page_look(). */
-INLINE void find_page(const snow_plane_map *map, question *q)
+/* What follows is snow_plane_map_find() and snow_plane_page_look(). The number of the tile: */
+INLINE lanes find_tile(const snow_plane_map *map, question *q)
 {
     lanes u = _mm256_sub_epi32(q->x, all((uint32_t)map->box.x));
     lanes v = _mm256_sub_epi32(q->y, all((uint32_t)map->box.y));
@@ -176,15 +245,19 @@ INLINE void find_page(const snow_plane_map *map, question *q)
     q->v = _mm256_and_si256(v, q->inside);
     /* Row and column in the halves of a lane. */
     lanes place = _mm256_blend_epi16(_mm256_srli_epi32(q->v, 5), _mm256_slli_epi32(q->u, 11), 0xAA);
-    lanes tile = _mm256_madd_epi16(place, all(map->box.columns | 1u << 16));
-    q->page = fetch_from((const void *)map->tile, apart_clean(tile));
+    return _mm256_madd_epi16(place, all(map->box.columns | 1u << 16));
+}
+
+INLINE void find_page(const snow_plane_map *map, question *q)
+{
+    q->page = fetch_from((const void *)map->tile, widened(find_tile(map, q)));
 }
 
 INLINE void look_near(question *q)
 {
     lanes row = _mm256_and_si256(_mm256_slli_epi32(q->v, 1), all(56));
     lanes column = _mm256_and_si256(_mm256_srli_epi32(q->u, 2), all(7));
-    pair byte = fetch(plus(q->page, apart_clean(_mm256_or_si256(row, column))));
+    wide byte = fetch(plus(q->page, widened(_mm256_or_si256(row, column))));
     q->near = _mm256_and_si256(lower_halves(byte), all(255));
     q->is_close = _mm256_cmpgt_epi32(all(2), q->near);
 }
@@ -194,19 +267,18 @@ INLINE void find_line(question *q)
     lanes row = _mm256_and_si256(q->v, all(16));
     lanes column = _mm256_and_si256(_mm256_srli_epi32(q->u, 1), all(8));
     lanes place = _mm256_add_epi32(_mm256_or_si256(row, column), all(offsetof(snow_plane_page, line)));
-    q->line = fetch_some(plus(q->page, apart_clean(place)), q->is_close);
+    q->line = fetch_some(plus(q->page, widened(place)), q->is_close);
 }
 
 /* Two rows of a line at once: eight bytes. */
 INLINE void look_closely(question *q)
 {
     lanes two_rows = _mm256_slli_epi32(_mm256_and_si256(q->v, all(14)), 2);
-    pair code = fetch_some(plus(q->line, apart_clean(two_rows)), q->is_close);
+    wide code = fetch_some(plus(q->line, widened(two_rows)), q->is_close);
     lanes row = _mm256_slli_epi32(_mm256_and_si256(q->v, all(1)), 5);
     lanes column = _mm256_slli_epi32(_mm256_and_si256(q->u, all(15)), 1);
-    pair bit = apart_clean(_mm256_or_si256(row, column));
-    code.even = _mm256_srlv_epi64(code.even, bit.even);
-    code.odd = _mm256_srlv_epi64(code.odd, bit.odd);
+    wide bit = widened(_mm256_or_si256(row, column));
+    code = shifted_down(code, bit);
     lanes exact = _mm256_and_si256(_mm256_andnot_si256(lower_halves(code), all(3)), q->is_close);
     q->seen = choose(q->inside, _mm256_max_epu32(q->near, exact), all(SNOW_MAP_BEYOND));
 }
@@ -237,22 +309,22 @@ INLINE void find_table(const snow_ground *ground, bool hexagonal, question *q)
 }
 
 /* snow_exit_table_pick() */
-INLINE void find_exit(const snow_exits *exits, question *q, numbers number)
+INLINE void find_exit(const snow_exits *exits, question *q, wide number)
 {
-    pair columns = apart(q->radius);
+    wide columns = widened(q->radius);
     q->pick = plus(product(upper_to_lower(number), columns), upper_to_lower(product(number, columns)));
-    q->exit = fetch_from(exits->exit, plus(upper_to_lower(q->pick), apart_clean(q->first)));
+    q->exit = fetch_from(exits->exit, plus(upper_to_lower(q->pick), widened(q->first)));
 }
 
 INLINE lanes offset_of(const question *q)
 {
     lanes place = lower_halves(q->pick);
     lanes is_from = _mm256_cmpeq_epi32(_mm256_max_epu32(place, lower_halves(q->exit)), place);
-    lanes outcome = _mm256_srlv_epi32(upper_halves(q->exit), _mm256_and_si256(is_from, all(16)));
+    lanes outcome = _mm256_srlv_epi32(lower_halves(upper_to_lower(q->exit)), _mm256_and_si256(is_from, all(16)));
     return _mm256_and_si256(outcome, all(0xFFFF));
 }
 
-INLINE void jump_square(question *q, numbers number)
+INLINE void jump_square(question *q, wide number)
 {
     lanes symmetry = lower_halves(number);
     lanes along = signed_by(offset_of(q), _mm256_slli_epi32(symmetry, 31));
@@ -268,20 +340,19 @@ INLINE lanes directed(lanes a, lanes table, lanes side)
     return _mm256_sign_epi32(a, _mm256_permutevar8x32_epi32(table, side));
 }
 
-INLINE void jump_hexagonal(question *q, numbers number)
+INLINE void jump_hexagonal(question *q, wide number)
 {
     const lanes corner_q = _mm256_setr_epi32(1, 0, -1, -1, 0, 1, 0, 0);
     const lanes corner_r = _mm256_setr_epi32(0, 1, 1, 0, -1, -1, 0, 0);
     const lanes side_q = _mm256_setr_epi32(-1, -1, 0, 1, 1, 0, 0, 0);
     const lanes side_r = _mm256_setr_epi32(1, 0, -1, -1, 0, 1, 0, 0);
-    const pair six = {all(6), all(6)};
-    lanes side = upper_halves(product(number, six));
+    lanes side = lower_halves(upper_to_lower(product(number, every(6))));
     lanes offset = offset_of(q);
     q->x = _mm256_add_epi32(q->x, _mm256_add_epi32(directed(q->radius, corner_q, side), directed(offset, side_q, side)));
     q->y = _mm256_add_epi32(q->y, _mm256_add_epi32(directed(q->radius, corner_r, side), directed(offset, side_r, side)));
 }
 
-INLINE void jump(bool hexagonal, question *q, numbers number)
+INLINE void jump(bool hexagonal, question *q, wide number)
 {
     if (hexagonal)
         jump_hexagonal(q, number);
@@ -293,7 +364,7 @@ INLINE void jump(bool hexagonal, question *q, numbers number)
 
 /* All ask a question, each with its half of a block of numbers, and jump. Who cannot has a radius of 0. */
 INLINE void go_on(const snow_ground *ground, bool hexagonal, question *q, snow_squad *squads,
-                         numbers (*block)[2], uint32_t half, int count)
+                         wide (*block)[2], uint32_t half, int count)
 {
     EACH(i) {
         snow_row *row = snow_squad_row(&squads[i], squads[i].next);
@@ -317,11 +388,11 @@ INLINE lanes stays(const question *q)
 }
 
 /* Two questions of each. In `still` are the lanes that did not move at the second one. */
-INLINE void use_block(const snow_ground *ground, bool hexagonal, lanes key[ROUNDS][2], snow_squad *squads,
+INLINE void use_block(const snow_ground *ground, bool hexagonal, const uint64_t *key, snow_squad *squads,
                              uint32_t *still, int count)
 {
     question q[SNOW_SQUADS];
-    numbers block[SNOW_SQUADS][2];
+    wide block[SNOW_SQUADS][2];
     lanes at_once[SNOW_SQUADS];
     EACH(i) draw(key, &squads[i].lanes, block[i]);
     EACH(i) q[i].x = load(squads[i].lanes.x);
@@ -352,7 +423,7 @@ static uint32_t blocks_left(const snow_squad *squads, int count)
 
 INLINE void walk(const snow_ground *ground, bool hexagonal, snow_squad *squads, int count)
 {
-    lanes key[ROUNDS][2];
+    uint64_t key[2 * ROUNDS];
     make_keys(key, squads[0].key);
     uint32_t landed = 0;
     for (uint32_t blocks = blocks_left(squads, count); blocks > 0 && landed == 0; blocks--) {
@@ -375,10 +446,38 @@ INLINE void walk_together(const snow_ground *ground, bool hexagonal, snow_squad 
     }
 }
 
-void snow_squads_walk_avx2(const snow_ground *ground, snow_squad *squads, int count)
+void NAME(snow_squads_walk_, SNOW_KERNEL)(const snow_ground *ground, snow_squad *squads, int count)
 {
     if (ground->exits.lattice == SNOW_AGGREGATE_HEXAGONAL)
         walk_together(ground, true, squads, count);
     else
         walk_together(ground, false, squads, count);
+}
+
+/* Eight rows of a column at a time: which of them may have changed. */
+INLINE uint32_t find_changed(const snow_ground *ground, const snow_squad *squad, int lane, uint32_t first, uint32_t since)
+{
+    enum { ROW = sizeof(snow_row) / sizeof(int32_t) };
+    const lanes eight = _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7);
+    lanes row = _mm256_and_si256(_mm256_add_epi32(all(first), eight), all(squad->room - 1));
+    lanes at = _mm256_mullo_epi32(row, all(ROW));
+    question q = {.x = _mm256_i32gather_epi32(squad->rows->x + lane, at, 4),
+                  .y = _mm256_i32gather_epi32(squad->rows->y + lane, at, 4)};
+    lanes tile = find_tile(&ground->plane, &q);
+    lanes changed = _mm256_i32gather_epi32((const int *)ground->plane.changed, tile, 4);
+    lanes is_newer = _mm256_cmpgt_epi32(_mm256_sub_epi32(changed, all(since)), _mm256_setzero_si256());
+    return (uint32_t)_mm256_movemask_ps(_mm256_castsi256_ps(_mm256_and_si256(is_newer, q.inside)));
+}
+
+uint32_t NAME(snow_squad_outdated_, SNOW_KERNEL)(const snow_ground *ground, const snow_squad *squad, int lane,
+                                                 uint32_t first, uint32_t end, uint64_t since)
+{
+    for (uint32_t row = first; row - first < end - first; row += 8) {
+        uint32_t changed = find_changed(ground, squad, lane, row, (uint32_t)since);
+        for (uint32_t i = 0; changed >> i != 0; i++)
+            if ((changed >> i & 1) != 0 && row + i - first < end - first &&
+                snow_squad_is_outdated(ground, squad, lane, row + i))
+                return row + i;
+    }
+    return end;
 }
