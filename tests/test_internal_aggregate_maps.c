@@ -91,8 +91,8 @@ typedef struct world {
 
 static const snow_plane_box small_plane = {-512, -512, 32, 32};
 static const snow_plane_box large_plane = {-1536, -1536, 96, 96};
-static const snow_space_box small_space = {-64, -64, -64, 8, 8, 8};
-static const snow_space_box large_space = {-192, -192, -192, 24, 24, 24};
+static const snow_space_box small_space = {-128, -128, -128, 16, 16, 16};
+static const snow_space_box large_space = {-256, -256, -256, 32, 32, 32};
 
 static void start(world *self, snow_aggregate_lattice lattice)
 {

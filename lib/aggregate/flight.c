@@ -32,6 +32,21 @@ static const int side_r[6] = {1, 0, -1, -1, 0, 1};
 static const int32_t image_of_square[8][4] = {{1, 0, 0, 1},  {-1, 0, 0, 1},  {1, 0, 0, -1},  {-1, 0, 0, -1},
                                               {0, 1, 1, 0},  {0, 1, -1, 0},  {0, -1, 1, 0},  {0, -1, -1, 0}};
 
+/* The 48 symmetries of a cube: what one step across a face, and one along each
+   offset on it, add to three numbers of 16 bits each. */
+#define X INT64_C(0x1)
+#define Y INT64_C(0x10000)
+#define Z INT64_C(0x100000000)
+#define FACE(across, a, b)                                                                            \
+    {across, a, b}, {across, -(a), b}, {across, a, -(b)}, {across, -(a), -(b)},                       \
+    {across, b, a}, {across, -(b), a}, {across, b, -(a)}, {across, -(b), -(a)}
+static const int64_t image_of_cube[48][3] = {FACE(X, Y, Z),  FACE(-X, Y, Z), FACE(Y, X, Z),
+                                             FACE(-Y, X, Z), FACE(Z, X, Y),  FACE(-Z, X, Y)};
+#undef X
+#undef Y
+#undef Z
+#undef FACE
+
 COPIED int ways(snow_aggregate_lattice lattice)
 {
     return lattice == SNOW_AGGREGATE_SQUARE ? 4 : 6;
@@ -123,18 +138,12 @@ COPIED snow_site jump(const snow_exit_table *table, snow_aggregate_lattice latti
         site.y += radius * corner_r[side] + offset * side_r[side];
         return site;
     }
-    int32_t mirror_a = -(int32_t)(number & 1);
-    int32_t mirror_b = -(int32_t)(number >> 1 & 1);
-    int32_t swap = -(int32_t)(number >> 2 & 1);
-    int32_t a = ((offset >> 8) ^ mirror_a) - mirror_a;
-    int32_t b = ((offset & 255) ^ mirror_b) - mirror_b;
-    swap &= a ^ b;
-    a ^= swap;
-    b ^= swap;
-    int32_t across = side % 2 == 0 ? radius : -radius;
-    site.x += side / 2 == 0 ? across : a;
-    site.y += side / 2 == 1 ? across : side / 2 == 0 ? a : b;
-    site.z += side / 2 == 2 ? across : b;
+    const int64_t *image = image_of_cube[8 * side + (number & 7)];
+    int64_t sum = image[0] * radius + image[1] * (offset >> 8) + image[2] * (offset & 255);
+    uint64_t shifted = (uint64_t)sum + UINT64_C(0x800080008000);
+    site.x += (int32_t)(shifted & 0xFFFF) - 0x8000;
+    site.y += (int32_t)(shifted >> 16 & 0xFFFF) - 0x8000;
+    site.z += (int32_t)(shifted >> 32 & 0xFFFF) - 0x8000;
     return site;
 }
 
@@ -216,6 +225,14 @@ COPIED snow_site leave(const snow_ground *ground, manner how, snow_site site, ui
     return how.in_vessel ? fold(&ground->source, how.lattice, site) : site;
 }
 
+/* From the middle of the ball that is free. */
+COPIED snow_site leave_ball(const snow_source_of_walkers *source, manner how, snow_site site, double ball,
+                            snow_draws *draws)
+{
+    site = snow_source_sphere(site, ball, draws);
+    return how.in_vessel ? fold(source, how.lattice, site) : site;
+}
+
 static bool is_outside(const snow_ground *ground, manner how, snow_site site)
 {
     if (how.lattice == SNOW_AGGREGATE_CUBIC)
@@ -229,6 +246,11 @@ COPIED snow_site drift(const snow_ground *ground, manner how, snow_site site, sn
     int64_t clear = clear_of(&ground->source, how.lattice, site);
     if (RARE(clear > ground->source.safe))
         return snow_source_return(&ground->source, site, draws);
+    if (how.lattice == SNOW_AGGREGATE_CUBIC) {
+        double ball = snow_source_clear_ball(&ground->source, site);
+        if (ball >= SNOW_SOURCE_LEAST_BALL)
+            return leave_ball(&ground->source, how, site, ball, draws);
+    }
     return leave(ground, how, site, (uint32_t)snow_exits_class_near(&ground->exits, clear), draws);
 }
 
@@ -280,9 +302,32 @@ COPIED void note(const snow_squad *squad, int lane, manner how, const snow_fligh
         snow_squad_heights(squad, squad->next)->z[lane] = flight->z;
 }
 
+#if defined(__GNUC__)
+#define FETCH(address) __builtin_prefetch(address)
+#else
+#define FETCH(address) (void)(address)
+#endif
+
+/* What each will ask for, one link after the other: so the processor waits for all at a time. Idle lanes do no harm. */
+COPIED void fetch_ahead(const snow_space_map *map, const snow_squad *squad)
+{
+    const snow_space_page *page[SNOW_LANES];
+    for (int lane = 0; lane < SNOW_LANES; lane++) {
+        const snow_flight *flight = &squad->flight[lane];
+        page[lane] = snow_space_map_find(map, flight->x, flight->y, flight->z);
+        FETCH(&page[lane]->near);
+    }
+    for (int lane = 0; lane < SNOW_LANES; lane++) {
+        const snow_flight *flight = &squad->flight[lane];
+        FETCH(snow_space_page_pair(page[lane], flight->x, flight->y, flight->z));
+    }
+}
+
 /* A turn of each. */
 COPIED void all_go_on(const snow_ground *ground, manner how, snow_squad *squad)
 {
+    if (how.lattice == SNOW_AGGREGATE_CUBIC)
+        fetch_ahead(&ground->space, squad);
     for (int lane = 0; lane < SNOW_LANES; lane++) {
         if (RARE((squad->busy >> lane & 1) == 0))
             continue;

@@ -243,6 +243,48 @@ snow_site snow_source_return(const snow_source_of_walkers *source, snow_site sit
     return site;
 }
 
+double snow_source_clear_ball(const snow_source_of_walkers *source, snow_site site)
+{
+    if (source->width > 0)
+        return site.z - source->reach;
+    return sqrt(squared(point_of(source->lattice, site))) - source->rim;
+}
+
+double snow_source_sphere_density(double radius, double x, double y, double z)
+{
+    double a = 1 / (radius * radius);
+    double p = x * x;
+    double q = y * y;
+    double r = z * z;
+    double pairs = p * q + q * r + r * p;
+    double product = p * q * r;
+    double fourth = 1 - 5 * pairs;
+    double sixth = 1 - 10.5 * pairs + 115.5 * product;
+    double eighth = 1 - 18 * pairs - 52 * product + 65 * pairs * pairs;
+    return 1 + 5.25 * a * (1 + 0.275 * a) * fourth + a * a * (1.625 * sixth - 11.15625 * eighth);
+}
+
+/* By rejection: most numbers need no density, and hardly any is rejected. */
+static point unit_sphere_of_lattice(double radius, snow_draws *draws)
+{
+    double most = 5.5 / (radius * radius); /* what the density differs from 1 by */
+    for (;;) {
+        point unit = unit_sphere(draws);
+        double level = snow_draws_uniform(draws) * (1 + most);
+        if (level < 1 - most || level < snow_source_sphere_density(radius, unit.x, unit.y, unit.z))
+            return unit;
+    }
+}
+
+snow_site snow_source_sphere(snow_site site, double ball, snow_draws *draws)
+{
+    double inside = ball - 1 - blur(draws) * 0.5;
+    point unit = unit_sphere_of_lattice(inside, draws);
+    point from = point_of(SNOW_AGGREGATE_CUBIC, site);
+    return site_at(SNOW_AGGREGATE_CUBIC,
+                   (point){from.x + inside * unit.x, from.y + inside * unit.y, from.z + inside * unit.z});
+}
+
 snow_site snow_source_circle(snow_site site, int32_t radius, snow_draws *draws)
 {
     snow_draws_end_block(draws);

@@ -3,11 +3,15 @@
 #include <string.h>
 
 enum {
+    LINES_REACH = SNOW_SPACE_SITES,
     NEAR_REACH = SNOW_SPACE_NEAR,
-    FAR_REACH = SNOW_SPACE_FAR /* tiles, and cubes of tiles */
+    FAR_REACH = SNOW_SPACE_FAR,
+    CUBES_REACH = SNOW_SPACE_CUBES,
+    SIDES = SNOW_SPACE_SIDES,
+    PAIRS = SNOW_SPACE_PAIRS,
+    ROWS = SNOW_SPACE_ROWS,
+    UNKNOWN = (LINES_REACH + 1) << 8 /* of a pair that is further away */
 };
-
-snow_space_matter snow_space_nothing;
 
 static int64_t magnitude(int64_t x)
 {
@@ -41,25 +45,91 @@ static int64_t distance_to_contact(int64_t x, int64_t y, int64_t z)
     return least;
 }
 
-static snow_space_word print_of(int place, int block)
+/* What a line says of a pair, where the filled site lies so far from the pair's first one. */
+static int16_t print_of_pair(int64_t x, int64_t y, int64_t z)
 {
-    snow_space_word word = {0, 0};
-    for (int bit = 0; bit < 64; bit++) {
-        int x = bit % 4 + 4 * (block % 3 - 1) - place % 4;
-        int y = bit / 4 % 4 + 4 * (block / 3 % 3 - 1) - place / 4 % 4;
-        int z = bit / 16 + 4 * (block / 9 - 1) - place / 16;
-        uint64_t code = (uint64_t)(3 - at_most(distance_to_contact(x, y, z), 3));
-        word.upper |= (code >> 1) << bit;
-        word.lower |= (code & 1) << bit;
+    int64_t distance[8];
+    int64_t least = LINES_REACH + 1;
+    for (int site = 0; site < 8; site++) {
+        distance[site] = distance_to_contact(x - site % 2, y - site / 2 % 2, z - site / 4);
+        least = at_most(least, distance[site]);
     }
-    return word;
+    int print = (int)least << 8;
+    for (int site = 0; site < 8 && least <= LINES_REACH; site++)
+        print |= (distance[site] > least) << site;
+    return (int16_t)print;
 }
 
-/* The greater code of each site. */
-static snow_space_word greater(snow_space_word a, snow_space_word b)
+static void make_print(snow_space_print *print, int place)
 {
-    uint64_t lower = (a.lower & (a.upper | ~b.upper)) | (b.lower & (b.upper | ~a.upper));
-    return (snow_space_word){a.upper | b.upper, lower};
+    for (int line = 0; line < SNOW_SPACE_LINES; line++) {
+        for (int layer = 0; layer < PAIRS; layer++) {
+            for (int row = 0; row < ROWS; row++) {
+                for (int i = 0; i < 4; i++) {
+                    int x = place % 8 - 2 * (4 * (line - 1) + i);
+                    int y = place / 8 % 2 - 2 * (row - ROWS / 2);
+                    int z = place / 16 - 2 * (layer - PAIRS / 2);
+                    print->pair[line][layer][row][i] = print_of_pair(x, y, z);
+                }
+            }
+        }
+    }
+}
+
+typedef uint8_t sixteen __attribute__((vector_size(16))); /* blocks of a layer of a page */
+typedef int16_t eight __attribute__((vector_size(16)));   /* pairs of two rows of a line */
+
+/* Nobody else writes, so all may be read as plain numbers. */
+static sixteen get_sixteen(const void *from)
+{
+    sixteen numbers;
+    memcpy(&numbers, from, sizeof numbers);
+    return numbers;
+}
+
+static eight get_eight(const void *from)
+{
+    eight numbers;
+    memcpy(&numbers, from, sizeof numbers);
+    return numbers;
+}
+
+static void put(_Atomic uintptr_t *to, const void *sixteen_bytes)
+{
+    for (size_t i = 0; i < 16 / sizeof *to; i++) {
+        uintptr_t word;
+        memcpy(&word, (const char *)sixteen_bytes + i * sizeof word, sizeof word);
+        SNOW_MAP_PUT(to[i], word);
+    }
+}
+
+/* Whether any of 16 bytes is not 0. */
+static bool has_any(const void *sixteen_bytes)
+{
+    uint64_t half[2];
+    memcpy(half, sixteen_bytes, sizeof half);
+    return (half[0] | half[1]) != 0;
+}
+
+static sixteen lesser(sixteen a, sixteen b)
+{
+    sixteen choose = (sixteen)(a < b);
+    return (a & choose) | (b & ~choose);
+}
+
+static sixteen greater(sixteen a, sixteen b)
+{
+    sixteen choose = (sixteen)(a < b);
+    return (b & choose) | (a & ~choose);
+}
+
+/* Where the least distances of a pair are equal, so are those of the sites that are so near to either; else the
+   nearer one has it all: distances differ by at most 1. */
+static eight nearer(eight known, eight print)
+{
+    eight not_further = print <= (known | 255);
+    eight further = (print | 255) < known;
+    return (known & (print | ~not_further) & ~further) | (print & further);
 }
 
 static size_t tiles_of(snow_space_box box)
@@ -83,13 +153,21 @@ static size_t cube_index(const snow_space_box *box, int64_t column, int64_t row,
     return ((size_t)(layer / 4) * (box->rows / 4) + (size_t)(row / 4)) * (box->columns / 4) + (size_t)(column / 4);
 }
 
-static void start_page(snow_space_page *page, uint8_t class, uint64_t landing)
+static void start_page(snow_space_map *map, snow_space_page *page, uint8_t class, int distance)
 {
-    page->changed = landing;
+    page->changed = map->landing;
+    page->most = class;
+    page->distance = (uint8_t)distance;
     for (int i = 0; i < 64; i++)
-        atomic_init(&page->near[i], class);
+        atomic_init(&page->near.block[i], class);
     for (int i = 0; i < 8; i++)
-        atomic_init(&page->line[i], &snow_space_nothing.line);
+        atomic_init(&page->line[i], &map->nothing.line);
+}
+
+static void start_line(snow_space_line *line)
+{
+    for (int i = 0; i < 64; i++)
+        atomic_init(&line->pair[i], UNKNOWN);
 }
 
 static snow_status cover(snow_space_map *map, snow_heap *heap, snow_space_box box)
@@ -103,9 +181,9 @@ static snow_status cover(snow_space_map *map, snow_heap *heap, snow_space_box bo
         snow_heap_put(heap, tile);
         return heap->refusal;
     }
-    memset(cube_distance, FAR_REACH + 1, cubes_of(box));
+    memset(cube_distance, CUBES_REACH + 1, cubes_of(box));
     for (size_t i = 0; i < cubes_of(box); i++)
-        start_page(&cube[i], map->cube_class[FAR_REACH + 1], 0);
+        start_page(map, &cube[i], map->cube_class[CUBES_REACH + 1], FAR_REACH + 1);
     for (uint32_t layer = 0; layer < box.layers; layer++)
         for (uint32_t row = 0; row < box.rows; row++)
             for (uint32_t column = 0; column < box.columns; column++)
@@ -124,21 +202,13 @@ static void uncover(const snow_space_map *map, snow_heap *heap)
     snow_heap_put(heap, map->tile);
 }
 
-/* How far the tile is that such a page stands for; 0: a page of its own. */
-static uintptr_t distance_of(const snow_space_map *map, const snow_space_page *page)
-{
-    uintptr_t far = ((uintptr_t)page - (uintptr_t)map->far) / sizeof *page;
-    uintptr_t cube = ((uintptr_t)page - (uintptr_t)map->cube) / sizeof *page;
-    return far <= FAR_REACH ? far : cube < cubes_of(map->box) ? FAR_REACH + 1 : 0;
-}
-
 static void make_near(snow_space_map *map)
 {
     for (int from = 0; from < 16; from++) {
-        for (int side = 0; side < 9; side++) {
+        for (int side = 0; side < SIDES * SIDES; side++) {
             for (int place = 0; place < 16; place++) {
-                int i = place % 4 + 4 * (side % 3 - 1) - from % 4;
-                int j = place / 4 + 4 * (side / 3 - 1) - from / 4;
+                int i = place % 4 + 4 * (side % SIDES - SIDES / 2) - from % 4;
+                int j = place / 4 + 4 * (side / SIDES - SIDES / 2) - from / 4;
                 map->near_in_layer[from][side][place] = map->near[at_most(apart(i, j, 0), NEAR_REACH + 1)];
             }
         }
@@ -154,33 +224,34 @@ static uint8_t class_of(const snow_exits *exits, int64_t free)
 static void make_classes(snow_space_map *map, const snow_exits *exits)
 {
     for (int d = 0; d <= NEAR_REACH + 1; d++)
-        map->near[d] = d < 2 ? (uint8_t)d : class_of(exits, 4 * (d - 1));
+        map->near[d] = d < SNOW_SPACE_LOOK ? (uint8_t)d : class_of(exits, 4 * (d - 1));
     for (int d = 1; d <= FAR_REACH; d++)
-        start_page(&map->far[d], class_of(exits, 16 * (d - 1)), 0);
-    for (int d = 0; d <= FAR_REACH + 1; d++)
-        map->cube_class[d] = class_of(exits, d <= 1 ? 16 * FAR_REACH : 64 * (d - 1));
+        start_page(map, &map->far[d], class_of(exits, 16 * (d - 1)), d);
+    for (int d = 0; d <= CUBES_REACH + 1; d++)
+        map->cube_class[d] = class_of(exits, at_least(64 * (d - 1), 16 * FAR_REACH));
 }
 
 snow_status snow_space_map_start(snow_space_map *map, snow_heap *heap, const snow_exits *exits, bool keeps_matter,
                                  snow_space_box box)
 {
+    enum { PLACES = 32 };
     *map = (snow_space_map){
         .pages = {.item = sizeof(snow_space_page)},
         .lines = {.item = keeps_matter ? sizeof(snow_space_matter) : sizeof(snow_space_line)},
         .keeps_matter = keeps_matter,
     };
-    start_page(&map->outside, SNOW_MAP_BEYOND, 0);
+    start_line(&map->nothing.line);
+    start_page(map, &map->outside, SNOW_MAP_BEYOND, 0);
     make_classes(map, exits);
     make_near(map);
-    map->print = snow_heap_get_raw(heap, 64, sizeof *map->print);
+    map->print = snow_heap_get_raw(heap, PLACES, sizeof *map->print);
     snow_status status = map->print == NULL ? heap->refusal : cover(map, heap, box);
     if (status != SNOW_OK) {
         snow_space_map_end(map, heap);
         return status;
     }
-    for (int place = 0; place < 64; place++)
-        for (int block = 0; block < 27; block++)
-            map->print[place][block] = print_of(place, block);
+    for (int place = 0; place < PLACES; place++)
+        make_print(&map->print[place], place);
     return SNOW_OK;
 }
 
@@ -203,7 +274,7 @@ static snow_space_page *_Atomic *tile_at(snow_space_map *map, int64_t column, in
 
 static bool holds_special(const snow_space_page *page)
 {
-    return memchr((const void *)page->near, 0, sizeof page->near) != NULL;
+    return memchr((const void *)&page->near, 0, sizeof page->near) != NULL;
 }
 
 /* The page with the block (i, j, k). */
@@ -211,17 +282,17 @@ static snow_space_page *page_with(snow_space_map *map, int64_t i, int64_t j, int
 {
     snow_space_page *_Atomic *entry = tile_at(map, i / 4, j / 4, k / 4);
     snow_space_page *page = SNOW_MAP_GET(*entry);
-    if (distance_of(map, page) == 0)
+    if (page->distance == 0)
         return page;
     page = snow_pool_take(&map->pages);
-    start_page(page, map->near[NEAR_REACH + 1], map->landing);
+    start_page(map, page, map->near[NEAR_REACH + 1], 0);
     SNOW_MAP_PUT_ADDRESS(*entry, page);
     return page;
 }
 
 static _Atomic uint8_t *near_at(snow_space_map *map, int64_t i, int64_t j, int64_t k)
 {
-    return &page_with(map, i, j, k)->near[snow_space_place((uint32_t)i, (uint32_t)j, (uint32_t)k)];
+    return &page_with(map, i, j, k)->near.block[snow_space_place((uint32_t)i, (uint32_t)j, (uint32_t)k)];
 }
 
 /* A box of blocks, tiles or cubes round one of them, cut off where the map ends. */
@@ -239,37 +310,57 @@ static range range_round(int64_t i, int64_t j, int64_t k, int64_t reach, const s
                     at_most(k + reach, box->layers * parts / wholes - 1)}};
 }
 
-/* A layer of 4 x 4 blocks at a time: classes in a layer are known, and none is
+static uint8_t greatest(sixteen numbers)
+{
+    uint8_t most = 0;
+    for (int i = 0; i < 16; i++)
+        most = numbers[i] > most ? numbers[i] : most;
+    return most;
+}
+
+/* A layer of 4 x 4 blocks at a time: numbers in a layer are known, and none is
    less than that of the layers. */
 static void lower_page(snow_space_map *map, snow_space_page *page, const uint8_t *near_in_layer, int64_t layers)
 {
-    bool lowers = false;
+    sixteen in_layer = get_sixteen(near_in_layer);
+    sixteen most = {0};
+    sixteen lowers = {0};
+    sixteen now[4];
     for (int layer = 0; layer < 4; layer++) {
-        int64_t d = magnitude(layers + layer);
-        if (d > NEAR_REACH)
-            continue;
-        uint8_t least = map->near[d];
-        _Atomic uint8_t *near = page->near + 16 * layer;
-        for (int place = 0; place < 16; place++) {
-            uint8_t bound = near_in_layer[place] > least ? near_in_layer[place] : least;
-            uint8_t known = SNOW_MAP_GET(near[place]);
-            lowers |= bound < known;
-            SNOW_MAP_PUT(near[place], known < bound ? known : bound);
-        }
+        sixteen known = get_sixteen((const char *)&page->near + 16 * layer);
+        sixteen least = (sixteen){0} + map->near[at_most(magnitude(layers + layer), NEAR_REACH + 1)];
+        now[layer] = lesser(known, greater(in_layer, least));
+        most = greater(most, now[layer]);
+        lowers |= now[layer] ^ known;
     }
-    if (lowers)
-        page->changed = map->landing;
+    if (!has_any(&lowers))
+        return;
+    for (size_t layer = 0; layer < 4; layer++)
+        put(page->near.word + layer * (16 / sizeof page->near.word[0]), &now[layer]);
+    page->most = greatest(most);
+    page->changed = map->landing;
+}
+
+/* How far a block is from the blocks of a tile, in one direction. */
+static int64_t apart_from_tile(int64_t block, int64_t tile)
+{
+    return at_least(at_least(4 * tile - block, block - 4 * tile - 3), 0);
 }
 
 /* The block (i, j, k) has got its first special site. */
 static void spread_near(snow_space_map *map, int64_t i, int64_t j, int64_t k)
 {
-    range tiles = range_round(i / 4, j / 4, k / 4, 1, &map->box, 1, 1);
+    range tiles = range_round(i / 4, j / 4, k / 4, SIDES / 2, &map->box, 1, 1);
     for (int64_t z = tiles.first[2]; z <= tiles.last[2]; z++) {
         for (int64_t y = tiles.first[1]; y <= tiles.last[1]; y++) {
             for (int64_t x = tiles.first[0]; x <= tiles.last[0]; x++) {
-                int64_t side = (y - j / 4 + 1) * 3 + x - i / 4 + 1;
+                int64_t d = apart(apart_from_tile(i, x), apart_from_tile(j, y), apart_from_tile(k, z));
+                if (d > NEAR_REACH)
+                    continue;
                 snow_space_page *page = page_with(map, 4 * x, 4 * y, 4 * z);
+                if (page->most <= map->near[d])
+                    continue;
+                int64_t side = (y - j / 4 + SIDES / 2) * SIDES + x - i / 4 + SIDES / 2;
                 lower_page(map, page, map->near_in_layer[j % 4 * 4 + i % 4][side], 4 * z - k);
             }
         }
@@ -278,7 +369,7 @@ static void spread_near(snow_space_map *map, int64_t i, int64_t j, int64_t k)
 
 static void spread_cube(snow_space_map *map, int64_t i, int64_t j, int64_t k)
 {
-    range all = range_round(i, j, k, FAR_REACH, &map->box, 1, 4);
+    range all = range_round(i, j, k, CUBES_REACH, &map->box, 1, 4);
     for (int64_t z = all.first[2]; z <= all.last[2]; z++) {
         for (int64_t y = all.first[1]; y <= all.last[1]; y++) {
             for (int64_t x = all.first[0]; x <= all.last[0]; x++) {
@@ -288,7 +379,7 @@ static void spread_cube(snow_space_map *map, int64_t i, int64_t j, int64_t k)
                     continue;
                 map->cube_distance[index] = (uint8_t)d;
                 for (int place = 0; place < 64; place++)
-                    SNOW_MAP_PUT(map->cube[index].near[place], map->cube_class[d]);
+                    SNOW_MAP_PUT(map->cube[index].near.block[place], map->cube_class[d]);
                 map->cube[index].changed = map->landing;
             }
         }
@@ -304,8 +395,8 @@ static void spread_tile(snow_space_map *map, int64_t i, int64_t j, int64_t k)
             for (int64_t x = all.first[0]; x <= all.last[0]; x++) {
                 snow_space_page *_Atomic *entry = tile_at(map, x, y, z);
                 snow_space_page *page = SNOW_MAP_GET(*entry);
-                uintptr_t d = (uintptr_t)apart(x - i, y - j, z - k);
-                if (d >= distance_of(map, page))
+                int64_t d = apart(x - i, y - j, z - k);
+                if (d >= page->distance)
                     continue;
                 map->far[d].changed = map->landing;
                 SNOW_MAP_PUT_ADDRESS(*entry, &map->far[d]);
@@ -323,7 +414,7 @@ static void spread_all_tiles(snow_space_map *map)
         for (int64_t y = 0; y < map->box.rows; y++) {
             for (int64_t x = 0; x < map->box.columns; x++) {
                 const snow_space_page *page = SNOW_MAP_GET(*tile_at(map, x, y, z));
-                if (distance_of(map, page) == 0 && holds_special(page))
+                if (page->distance == 0 && holds_special(page))
                     spread_tile(map, x, y, z);
             }
         }
@@ -343,7 +434,7 @@ snow_status snow_space_map_widen(snow_space_map *map, snow_heap *heap, snow_spac
         for (int64_t y = 0; y < old.box.rows; y++) {
             for (int64_t x = 0; x < old.box.columns; x++) {
                 snow_space_page *page = SNOW_MAP_GET(*tile_at(&old, x, y, z));
-                if (distance_of(&old, page) == 0)
+                if (page->distance == 0)
                     SNOW_MAP_PUT(*tile_at(map, x + shift_x, y + shift_y, z + shift_z), page);
             }
         }
@@ -355,13 +446,24 @@ snow_status snow_space_map_widen(snow_space_map *map, snow_heap *heap, snow_spac
 
 snow_status snow_space_map_reserve(snow_space_map *map, snow_heap *heap)
 {
-    enum { BLOCKS = 27, TILES = 27 };
+    enum { LINES = 27, TILES = (SIDES + 2) * (SIDES + 2) * (SIDES + 2) };
     snow_status status = snow_pool_reserve(&map->pages, heap, TILES);
-    return status == SNOW_OK ? snow_pool_reserve(&map->lines, heap, BLOCKS) : status;
+    return status == SNOW_OK ? snow_pool_reserve(&map->lines, heap, LINES) : status;
 }
 
-static void add_special(snow_space_map *map, int64_t i, int64_t j, int64_t k)
+static bool is_covered(const snow_space_map *map, int64_t u, int64_t v, int64_t w)
 {
+    return u >= 0 && v >= 0 && w >= 0 &&
+           snow_space_map_has(map, (uint32_t)(u / 16), (uint32_t)(v / 16), (uint32_t)(w / 16));
+}
+
+static void add_special(snow_space_map *map, int64_t u, int64_t v, int64_t w)
+{
+    if (!is_covered(map, u, v, w))
+        return;
+    int64_t i = u / 4;
+    int64_t j = v / 4;
+    int64_t k = w / 4;
     if (SNOW_MAP_GET(*near_at(map, i, j, k)) == 0)
         return;
     bool is_first = !holds_special(page_with(map, i, j, k));
@@ -370,35 +472,74 @@ static void add_special(snow_space_map *map, int64_t i, int64_t j, int64_t k)
         spread_tile(map, i / 4, j / 4, k / 4);
 }
 
-/* The line with the block (i, j, k). */
+/* The line (i, j, k), to be written to. */
 static snow_space_line *line_with(snow_space_map *map, int64_t i, int64_t j, int64_t k)
 {
-    snow_space_page *page = page_with(map, i, j, k);
-    uint32_t octant = snow_space_octant((uint32_t)i / 2, (uint32_t)j / 2, (uint32_t)k / 2);
+    snow_space_page *page = page_with(map, 2 * i, 2 * j, 2 * k);
+    uint32_t octant = snow_space_octant((uint32_t)i, (uint32_t)j, (uint32_t)k);
     snow_space_line *line = SNOW_MAP_GET(page->line[octant]);
-    if (line == &snow_space_nothing.line) {
+    if (line == &map->nothing.line) {
         line = snow_pool_take(&map->lines);
+        start_line(line);
         SNOW_MAP_PUT_ADDRESS(page->line[octant], line);
     }
     return line;
 }
 
-static void add_print(snow_space_map *map, int64_t i, int64_t j, int64_t k, snow_space_word print)
+/* Rows of 4 pairs, two at a time. The filled site's pair lies so many rows and layers before the first one of the
+   line (i, j, k). */
+static void lower_line(snow_space_map *map, int64_t i, int64_t j, int64_t k, int rows, int layers,
+                       const int16_t (*print)[ROWS][4])
 {
-    if ((print.upper | print.lower) == 0 || i < 0 || j < 0 || k < 0 || i >= (int64_t)map->box.columns * 4 ||
-        j >= (int64_t)map->box.rows * 4 || k >= (int64_t)map->box.layers * 4)
-        return;
-    if ((print.upper & print.lower) != 0)
-        add_special(map, i, j, k);
-    uint32_t octant = snow_space_octant((uint32_t)i, (uint32_t)j, (uint32_t)k);
-    snow_space_shared_word *word = &line_with(map, i, j, k)->word[octant];
-    page_with(map, i, j, k)->changed = map->landing;
-    for (int half = 0; half < 2; half++) {
-        snow_space_word known = {SNOW_MAP_GET(word->upper[half]), SNOW_MAP_GET(word->lower[half])};
-        known = greater(known, (snow_space_word){print.upper >> 32 * half, print.lower >> 32 * half});
-        SNOW_MAP_PUT(word->upper[half], (uint32_t)known.upper);
-        SNOW_MAP_PUT(word->lower[half], (uint32_t)known.lower);
+    snow_space_line *line = line_with(map, i, j, k);
+    int first = 2 * (int)at_least(0, -PAIRS / 2 - layers);
+    int end = 2 * (int)at_most(4, PAIRS / 2 + 1 - layers);
+    eight lowers = {0};
+    eight now[8];
+    for (int n = first; n < end; n++) {
+        eight known = get_eight((const char *)line + 16 * n);
+        now[n] = nearer(known, get_eight(print[layers + n / 2 + PAIRS / 2][rows + n % 2 * 2 + ROWS / 2]));
+        lowers |= now[n] ^ known;
     }
+    if (!has_any(&lowers))
+        return;
+    for (int n = first; n < end; n++)
+        put(line->word + (size_t)n * (16 / sizeof line->word[0]), &now[n]);
+    page_with(map, 2 * i, 2 * j, 2 * k)->changed = map->landing;
+}
+
+static int64_t floor_of(int64_t x, int64_t unit)
+{
+    return (x + unit * 16) / unit - 16; /* a floor lies at −1 */
+}
+
+/* The sites next to a filled one, and itself. */
+static void add_specials(snow_space_map *map, int64_t u, int64_t v, int64_t w)
+{
+    add_special(map, u, v, w);
+    for (int step = -1; step <= 1; step += 2) {
+        add_special(map, u + step, v, w);
+        add_special(map, u, v + step, w);
+        add_special(map, u, v, w + step);
+    }
+}
+
+/* What lines say, those that a filled site may change. */
+static void lower_lines(snow_space_map *map, int64_t u, int64_t v, int64_t w)
+{
+    const snow_space_print *print = &map->print[(w & 1) << 4 | (v & 1) << 3 | (u & 7)];
+    const int64_t place[3] = {u, v, w};
+    const int64_t lines[3] = {2 * (int64_t)map->box.columns, 2 * (int64_t)map->box.rows, 2 * (int64_t)map->box.layers};
+    range all;
+    for (int i = 0; i < 3; i++) {
+        all.first[i] = at_least(floor_of(place[i] - LINES_REACH - 1, 8), 0);
+        all.last[i] = at_most(floor_of(place[i] + LINES_REACH + 1, 8), lines[i] - 1);
+    }
+    for (int64_t k = all.first[2]; k <= all.last[2]; k++)
+        for (int64_t j = all.first[1]; j <= all.last[1]; j++)
+            for (int64_t i = all.first[0]; i <= all.last[0]; i++)
+                lower_line(map, i, j, k, (int)(4 * j - floor_of(v, 2)), (int)(4 * k - floor_of(w, 2)),
+                           print->pair[i - floor_of(u, 8) + 1]);
 }
 
 void snow_space_map_add(snow_space_map *map, int32_t x, int32_t y, int32_t z, bool obstacle)
@@ -406,17 +547,13 @@ void snow_space_map_add(snow_space_map *map, int32_t x, int32_t y, int32_t z, bo
     int64_t u = (int64_t)x - map->box.x;
     int64_t v = (int64_t)y - map->box.y;
     int64_t w = (int64_t)z - map->box.z;
-    int64_t i = (u + 4) / 4 - 1; /* −1: a floor */
-    int64_t j = (v + 4) / 4 - 1;
-    int64_t k = (w + 4) / 4 - 1;
-    uint32_t place = snow_space_place((uint32_t)(u + 4), (uint32_t)(v + 4), (uint32_t)(w + 4));
-    for (int block = 0; block < 27; block++)
-        add_print(map, i + block % 3 - 1, j + block / 3 % 3 - 1, k + block / 9 - 1, map->print[place][block]);
-    if (!map->keeps_matter || u < 0 || v < 0 || w < 0 || u >= (int64_t)map->box.columns * 16 ||
-        v >= (int64_t)map->box.rows * 16 || w >= (int64_t)map->box.layers * 16)
+    add_specials(map, u, v, w);
+    lower_lines(map, u, v, w);
+    if (!map->keeps_matter || !is_covered(map, u, v, w))
         return;
-    snow_space_matter *matter = (snow_space_matter *)line_with(map, i, j, k);
-    uint32_t octant = snow_space_octant((uint32_t)i, (uint32_t)j, (uint32_t)k);
+    snow_space_matter *matter = (snow_space_matter *)line_with(map, u / 8, v / 8, w / 8);
+    uint32_t octant = snow_space_octant((uint32_t)(u / 4), (uint32_t)(v / 4), (uint32_t)(w / 4));
+    uint32_t place = snow_space_place((uint32_t)u, (uint32_t)v, (uint32_t)w);
     _Atomic uint32_t *word = &(obstacle ? matter->obstacle : matter->filled)[octant][place / 32];
     SNOW_MAP_PUT(*word, SNOW_MAP_GET(*word) | UINT32_C(1) << place % 32);
 }
