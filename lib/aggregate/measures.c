@@ -164,7 +164,7 @@ static size_t column_of(const snow_aggregate_params *params, snow_site site)
     if (params->lattice == SNOW_AGGREGATE_CUBIC)
         return (size_t)site.y * (size_t)params->width + (size_t)site.x;
     if (params->lattice == SNOW_AGGREGATE_HEXAGONAL)
-        return (size_t)(site.x + site.y / 2);
+        return (size_t)((int64_t)site.x + site.y / 2);
     return (size_t)site.x;
 }
 
