@@ -230,7 +230,7 @@ static void collect_only(void *argument, size_t index)
 /* Our own threads only where a step takes longer than it takes them to meet. */
 static void for_blocks(snow_grid *grid, snow_task task)
 {
-    enum { LEAST_CHUNKS = 2048 }; /* some 30 µs */
+    enum { LEAST_CHUNKS = 512 }; /* some 10 µs */
     const rows *cells = rows_of(grid);
     if (grid->options.parallel_for != NULL || cells->listed_chunks >= LEAST_CHUNKS) {
         snow_grid_for(grid, cells->blocks, task, grid);
