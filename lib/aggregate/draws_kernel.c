@@ -96,6 +96,6 @@ void REFILL(SNOW_KERNEL)(snow_draws *draws)
         key_0 = PLUS(key_0, ALL(weyl_0));
         key_1 = PLUS(key_1, ALL(weyl_1));
     }
-    for (int i = 0; i < VECTORS; i++)
+    for (size_t i = 0; i < VECTORS; i++)
         store_pairs(draws->number + 2 * i * LANES, JOIN(b[i], a[i]), JOIN(d[i], c[i]));
 }

@@ -116,7 +116,11 @@ static snow_status make_all(snow_exits *exits, snow_heap *heap)
     if (status != SNOW_OK)
         return status;
     double *chance = snow_heap_get_raw(heap, most, sizeof *chance);
-    status = chance == NULL ? heap->refusal : make_room(exits, heap, laws);
+    if (chance == NULL) {
+        snow_alias_end(&alias, heap);
+        return heap->refusal;
+    }
+    status = make_room(exits, heap, laws);
     if (status == SNOW_OK)
         status = make_tables(exits, heap, laws, chance, &alias);
     snow_heap_put(heap, chance);
