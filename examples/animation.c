@@ -93,6 +93,8 @@ static int grow(animation *self, snow_grid *grid, snow_summary *summary)
         next += self->every < end - next ? self->every : end - next;
         self->it.stop.max_steps = next;
         exit_code = scene_run(grid, &self->it.stop, summary);
+        if (exit_code == EXIT_DONE && summary->reason == SNOW_STOP_STEPS && next < end && progress_cancelled())
+            summary->reason = SNOW_STOP_CANCELLED; /* slices may be too short for the run to notice */
         bool more = exit_code == EXIT_DONE && summary->reason == SNOW_STOP_STEPS && next < end;
         if (exit_code == EXIT_DONE)
             exit_code = add_frame(self, grid, more ? self->delay : self->hold);

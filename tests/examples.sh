@@ -332,12 +332,32 @@ test_disk() {
         code=$?
         : >stdout
         check 'a full disk: standard output' complained snowflake 1
+        for option in out rle; do
+            run packard --steps 20 --$option /dev/full
+            check "a full disk: packard --$option" complained packard 1
+        done
+        for option in out sites ply vtk save; do
+            run aggregate --particles 3000 --$option /dev/full
+            check "a full disk: aggregate --$option" complained aggregate 1
+        done
         check 'the full disk is still there' [ -c /dev/full ]
     else
-        for what in picture crystal numbers 'standard output' device; do
+        for what in picture crystal numbers 'standard output' 'packard --out' 'packard --rle' 'aggregate --out' \
+            'aggregate --sites' 'aggregate --ply' 'aggregate --vtk' 'aggregate --save' device; do
             skip "a full disk: $what" 'no /dev/full here'
         done
     fi
+    for program in snowflake packard aggregate; do
+        {
+            sleep 1 # until there is no reader any more
+            trap '' PIPE
+            "$programs/$program" 2>stderr
+            echo $? >code
+        } | :
+        code=$(cat code)
+        : >stdout
+        check "a closed pipe: $program" complained $program 1
+    done
     # A limit on the size of files is the nearest thing to a disk that fills up while a file is written.
     echo old >small.png
     (
@@ -369,8 +389,11 @@ interrupt() {
     job=$!
     sleep "$seconds"
     kill -INT $job
+    { sleep 120; kill -KILL $job; } >/dev/null 2>&1 &
+    guard=$!
     wait $job
     code=$?
+    kill $guard 2>/dev/null
 }
 
 test_interrupt() {
@@ -385,6 +408,23 @@ test_interrupt() {
     mv stdout stopped
     run packard --load-rle grown.rle --steps 0
     check 'packard, Ctrl-C: the pattern' same_population stopped stdout
+    interrupt 1 aggregate --particles 1000000000 --sites cloud --save cloud.snow
+    check 'aggregate, Ctrl-C: the line' printed "$aggregate_line"
+    check 'aggregate, Ctrl-C: a line a particle' [ "$(lines cloud)" -eq "$(sed 's/particles=\([0-9]*\) .*/\1/' stdout)" ]
+    run aggregate --load cloud.snow --particles 1 --sites again
+    check 'aggregate, Ctrl-C: the growth' cmp -s cloud again
+    for program in alpha_sweep random_seeds changing_conditions; do
+        interrupt 1 $program --radius 400 --max-steps 100000000000 --panel 40 --out sheet.png
+        check "$program, Ctrl-C: what is done is drawn" ended_early $program sheet.png
+    done
+    if built animation; then
+        interrupt 1 animation --radius 400 --beta 0.1 --max-steps 100000000 --every 1 --size 50 --out growth.gif
+        check 'animation, Ctrl-C: the line' printed '^frames=[0-9]+ .*reason=cancelled$'
+        check 'animation, Ctrl-C: the film' is_gif growth.gif
+    else
+        skip 'animation, Ctrl-C: the line' 'it is not built'
+        skip 'animation, Ctrl-C: the film' 'it is not built'
+    fi
     for seconds in 1 4 16; do # a busy machine needs longer for the first panels
         interrupt $seconds table --betas 0.9,0.05 --gammas 1,0.0001 --max-steps 100000000000 --panel 40 --out part.png
         ! partly_done || break
@@ -412,6 +452,27 @@ test_checkpoint() {
         skip 'kill -9 while a crystal is saved' 'it was saved too soon'
     fi
     rm -f point.snow.*.part none.png.*.part
+    # A growth that saves itself again and again is killed in the middle of a later checkpoint, if that can be seen.
+    "$programs/aggregate" --particles 1000000000 --checkpoint 0.001 --save growth.snow >stdout 2>stderr &
+    job=$!
+    looks=0
+    while [ ! -s growth.snow ] && [ "$looks" -lt 60 ]; do
+        looks=$((looks + 1))
+        sleep 1
+    done
+    while [ -z "$(find . -name 'growth.snow.*.part' -size +0)" ] && [ "$looks" -lt 5000 ]; do
+        looks=$((looks + 1))
+    done
+    kill -KILL $job 2>/dev/null
+    wait $job 2>/dev/null
+    run aggregate --load growth.snow --particles 1
+    check 'kill -9 in the middle of a checkpoint: the one before is whole' printed "$aggregate_line"
+    rm -f growth.snow*
+}
+# A sheet is drawn of the panels that are done; none at all is drawn where none is.
+ended_early() {
+    [ "$code" -eq 0 ] && grep -Eq '^panels=[0-9]+ done=[0-9]+ ' stdout && grep -q "^$1: stopped" stderr &&
+        { [ ! -e "$2" ] || is_png "$2"; } && rm -f "$2"
 }
 partly_done() {
     [ "$code" -eq 0 ] && grep -q '^panels=4 done=[1-3] ' stdout && is_png part.png && grep -q '^table: stopped' stderr
@@ -508,12 +569,6 @@ test_aggregate() {
         check "aggregate $option" complained aggregate 2
     done
     check 'wrong commands leave nothing' nothing_left wrong.png
-    if [ -c /dev/full ]; then
-        run aggregate --particles 5000 --sites /dev/full
-        check 'aggregate: a full disk' complained aggregate 1
-    else
-        skip 'aggregate: a full disk' 'no /dev/full here'
-    fi
 }
 
 : >stdout

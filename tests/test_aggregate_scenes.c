@@ -9,7 +9,7 @@
 #include <string.h>
 
 /* A small world of cells with a margin, a random number generator of its own (xorshift), and matter. */
-enum { SIDE = 64, MARGIN = 16 };
+enum { SIDE = 200, MARGIN = 16 };
 
 typedef struct world {
     bool filled[SIDE][SIDE];
@@ -217,6 +217,30 @@ static void ions_fall_far_as_the_rules_say(void **state)
     for (int32_t x = 0; x < 14; x++)
         *cell(&self.world, x, -1) = true;
     compare(&params, &self.world, fall, 4000);
+}
+
+/* Beside a tower they fall past it in leaps, some of them along the wall, and none through the tower. */
+static void ions_fall_past_a_tower_as_the_rules_say(void **state)
+{
+    (void)state;
+    enum { WIDTH = 160, HEIGHT = 120, TOWER = 10 };
+    snow_site tower[TOWER];
+    for (int32_t i = 0; i < TOWER; i++)
+        tower[i] = (snow_site){2, HEIGHT - 15 + i, 0};
+    snow_aggregate_params params = aggregate_scene(SNOW_AGGREGATE_ELECTROLYSIS);
+    params.width = WIDTH;
+    params.height = HEIGHT;
+    params.launch_first = 90;
+    params.seeds = tower;
+    params.seed_count = TOWER;
+    static bath self;
+    self = (bath){.width = WIDTH, .height = HEIGHT, .first = 90, .last = WIDTH - 1, .rise = -1};
+    self.world.high_x = WIDTH - 1;
+    self.world.high_y = HEIGHT - 1;
+    fill(&self.world, tower, TOWER);
+    for (int32_t x = 0; x < WIDTH; x++)
+        *cell(&self.world, x, -1) = true;
+    compare(&params, &self.world, fall, 10000);
 }
 
 /* The chimney. */
@@ -666,12 +690,12 @@ static void clusters_move_as_the_rules_say(void **state)
     assert_alike(modelled, got, 2);
 }
 
-/* Off the lattice: discs touch the one they met, and overlap none; the second one's side is any. */
-static void discs_touch_and_do_not_overlap(void **state)
+/* Off the lattice: discs touch the one they met, and overlap none. */
+static void check_discs(double sticking)
 {
-    (void)state;
     enum { DISCS = 500 };
     snow_aggregate_params params = aggregate_scene(SNOW_AGGREGATE_OFF_LATTICE);
+    params.sticking = sticking;
     snow_grid *grid = make_aggregate(&params, NULL);
     assert_ok(snow_step(grid, DISCS - 1));
     static snow_point points[DISCS];
@@ -692,6 +716,14 @@ static void discs_touch_and_do_not_overlap(void **state)
     snow_destroy(grid);
 }
 
+static void discs_touch_and_do_not_overlap(void **state)
+{
+    (void)state;
+    check_discs(1);
+    check_discs(0.1);
+}
+
+/* The second one's side is any. */
 static void the_second_disc_comes_from_any_side(void **state)
 {
     (void)state;
@@ -780,6 +812,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(ions_fall_as_the_rules_say),
         cmocka_unit_test(ions_fall_far_as_the_rules_say),
+        cmocka_unit_test(ions_fall_past_a_tower_as_the_rules_say),
         cmocka_unit_test(soot_rises_as_the_rules_say),
         cmocka_unit_test(flakes_drift_as_the_rules_say),
         cmocka_unit_test(the_sheets_walkers_wander_as_the_rules_say),

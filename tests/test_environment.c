@@ -1,12 +1,8 @@
-/* What a program around the library may do: other rounding modes, many grids on many threads, fork. */
-#define _POSIX_C_SOURCE 200809L
+/* What a program around the library may do to floating point: other rounding modes, flags, flushing to zero. */
 #include "support/grids.h"
 
 #include <fenv.h>
-#include <pthread.h>
 #include <stdlib.h>
-#include <sys/wait.h>
-#include <unistd.h>
 #if defined(__SSE2__)
 #include <xmmintrin.h>
 #endif
@@ -207,164 +203,6 @@ static void callbacks_see_the_caller_s_rounding_mode(void **state)
     snow_destroy(grid);
 }
 
-/* Each thread leads its own life with its own grids; no assertion there, cmocka is not made for it. */
-enum { LIVES = 6 };
-
-typedef struct life {
-    snow_reiter_engine engine;
-    int32_t threads;
-    uint64_t digest;
-    snow_status status;
-} life;
-
-static void *live_apart(void *context)
-{
-    life *mine = context;
-    for (int round = 0; round < 5 && mine->status == SNOW_OK; round++) {
-        snow_reiter_params params;
-        snow_reiter_params_init(&params, sizeof params);
-        params.radius = 20;
-        params.addition = 0.01;
-        params.engine = mine->engine;
-        snow_options options;
-        snow_options_init(&options, sizeof options);
-        options.threads = mine->threads;
-        snow_grid *grid = NULL;
-        mine->status = snow_reiter_create(&params, &options, &grid);
-        if (mine->status == SNOW_OK)
-            mine->status = snow_step(grid, 50);
-        if (mine->status == SNOW_OK)
-            mine->status = snow_digest(grid, &mine->digest);
-        snow_destroy(grid);
-    }
-    return NULL;
-}
-
-static void many_grids_on_many_threads(void **state)
-{
-    (void)state;
-    pthread_t threads[LIVES];
-    life lives[LIVES];
-    for (int i = 0; i < LIVES; i++) {
-        lives[i] = (life){i % 3 == 2 ? SNOW_REITER_ENGINE_REFERENCE : SNOW_REITER_ENGINE_ROWS, i % 3 + 1, 0, SNOW_OK};
-        assert_int_equal(0, pthread_create(&threads[i], NULL, live_apart, &lives[i]));
-    }
-    for (int i = 0; i < LIVES; i++)
-        assert_int_equal(0, pthread_join(threads[i], NULL));
-    for (int i = 0; i < LIVES; i++) {
-        assert_ok(lives[i].status);
-        assert_true(lives[i].digest == lives[0].digest);
-    }
-}
-
-typedef struct reading {
-    const snow_grid *grid;
-    uint64_t digest;
-    double defect;
-} reading;
-
-static void *read_apart(void *context)
-{
-    reading *mine = context;
-    uint64_t digest = 0;
-    if (snow_digest(mine->grid, &digest) == SNOW_OK)
-        mine->digest = digest;
-    (void)snow_symmetry_defect(mine->grid, &mine->defect);
-    double vapour, ice;
-    (void)snow_mass(mine->grid, &vapour, &ice);
-    size_t size = 0;
-    (void)snow_save(mine->grid, NULL, 0, &size);
-    return NULL;
-}
-
-/* Calls that take the grid as const may run at the same time. */
-static void one_grid_is_read_by_many_threads(void **state)
-{
-    (void)state;
-    for (size_t k = 0; k < COUNT_OF(engines); k++) {
-        snow_reiter_params params = disc_scene(0.4, 0.01, 1, 15);
-        params.engine = engines[k];
-        snow_options options = default_options();
-        options.threads = 2;
-        snow_grid *grid = make_grid(&params, &options);
-        assert_ok(snow_step(grid, 40));
-        pthread_t threads[4];
-        reading readings[4];
-        for (size_t i = 0; i < COUNT_OF(threads); i++) {
-            readings[i] = (reading){grid, 0, -1};
-            assert_int_equal(0, pthread_create(&threads[i], NULL, read_apart, &readings[i]));
-        }
-        for (size_t i = 0; i < COUNT_OF(threads); i++) {
-            assert_int_equal(0, pthread_join(threads[i], NULL));
-            assert_true(readings[i].digest == digest_of(grid));
-            assert_same_double(0.0, readings[i].defect);
-        }
-        snow_destroy(grid);
-    }
-}
-
-/* A grid may wander from thread to thread, as long as one at a time uses it. */
-static void *step_apart(void *context)
-{
-    return snow_step(context, 20) == SNOW_OK ? context : NULL;
-}
-
-static void a_grid_may_change_its_thread(void **state)
-{
-    (void)state;
-    snow_reiter_params params = disc_scene(0.4, 0.01, 1, 20);
-    snow_options options = default_options();
-    options.threads = 3;
-    snow_grid *plain = make_grid(&params, NULL);
-    snow_grid *grid = make_grid(&params, &options);
-    for (int i = 0; i < 4; i++) {
-        pthread_t thread;
-        void *answer = NULL;
-        assert_int_equal(0, pthread_create(&thread, NULL, step_apart, grid));
-        assert_int_equal(0, pthread_join(thread, &answer));
-        assert_ptr_equal(grid, answer);
-        assert_ok(snow_step(grid, 5));
-        assert_ok(snow_step(plain, 25));
-        assert_same_grids(plain, grid);
-    }
-    snow_destroy(grid);
-    snow_destroy(plain);
-}
-
-/* In a child the helpers of the parent do not exist; it goes on alone, with the same bits. */
-static void a_child_process_goes_on_with_the_same_bits(void **state)
-{
-    (void)state;
-    for (int32_t count = 1; count <= 4; count += 3) {
-        snow_reiter_params params = disc_scene(0.4, 0.01, 1, 20);
-        snow_options options = default_options();
-        options.threads = count;
-        snow_grid *grid = make_grid(&params, &options);
-        assert_ok(snow_step(grid, 30));
-        int ends[2];
-        assert_int_equal(0, pipe(ends));
-        pid_t child = fork();
-        assert_true(child >= 0);
-        if (child == 0) {
-            uint64_t digest = 0;
-            bool grown = snow_step(grid, 30) == SNOW_OK && snow_digest(grid, &digest) == SNOW_OK;
-            bool told = grown && write(ends[1], &digest, sizeof digest) == (ssize_t)sizeof digest;
-            snow_destroy(grid);
-            _exit(told ? 0 : 1);
-        }
-        assert_ok(snow_step(grid, 30));
-        uint64_t digest = 0;
-        assert_int_equal(sizeof digest, read(ends[0], &digest, sizeof digest));
-        int status = -1;
-        assert_int_equal(child, waitpid(child, &status, 0));
-        assert_true(WIFEXITED(status) && WEXITSTATUS(status) == 0);
-        assert_true(digest == digest_of(grid));
-        close(ends[0]);
-        close(ends[1]);
-        snow_destroy(grid);
-    }
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -374,10 +212,6 @@ int main(void)
         cmocka_unit_test(flushing_to_zero_changes_nothing),
 #endif
         cmocka_unit_test(callbacks_see_the_caller_s_rounding_mode),
-        cmocka_unit_test(many_grids_on_many_threads),
-        cmocka_unit_test(one_grid_is_read_by_many_threads),
-        cmocka_unit_test(a_grid_may_change_its_thread),
-        cmocka_unit_test(a_child_process_goes_on_with_the_same_bits),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,4 +1,4 @@
-/* What goes wrong outside, for every model: writers and readers that fail or give little anywhere, runs that are
+/* What goes wrong outside, for every model: writers and readers that fail or give little at every byte, runs that are
    cancelled at every step or run out of time. */
 #include "support/grids.h"
 #include "support/lives.h"
@@ -7,13 +7,6 @@
 #include <string.h>
 
 static snow_grid *const untouched = (snow_grid *)(uintptr_t)0x1230;
-
-/* The places in so many bytes that are tried: all near both ends, and some between. */
-static size_t next_place(size_t place, size_t size)
-{
-    bool near = place < 160 || place + 40 > size;
-    return place + (near ? 1 : 53);
-}
 
 /* --- saving --- */
 
@@ -40,7 +33,7 @@ static void a_writer_may_fail_anywhere(void **state)
         snow_grid *grid = start_life(&test_lives[i], false, NULL);
         assert_ok(snow_step(grid, 12));
         saved_life before = save_life(grid);
-        for (size_t room = 0; room <= before.size; room = next_place(room, before.size)) {
+        for (size_t room = 0; room <= before.size; room++) {
             weak_writer writer = {room, false};
             snow_status status = snow_save_to(grid, write_until_full, &writer);
             assert_status(room < before.size ? SNOW_ERROR_WRITE : SNOW_OK, status);
@@ -128,12 +121,36 @@ static void a_reader_may_give_little_at_a_time(void **state)
     }
 }
 
+/* More than a reader's text has room for at first. */
+static void a_large_grid_is_read_whole(void **state)
+{
+    (void)state;
+    size_t largest = 0;
+    for (size_t i = 0; i < test_life_count; i++) {
+        snow_grid *grid = start_life(&test_lives[i], true, NULL);
+        assert_ok(snow_step(grid, 3));
+        saved_life saved = save_life(grid);
+        weak_reader reader = {&saved, 0, 50000, saved.size, false};
+        snow_grid *copy = NULL;
+        assert_ok(snow_load_from(read_until_end, &reader, NULL, &copy));
+        assert_true(digest_of(grid) == digest_of(copy));
+        assert_ok(snow_step(grid, 2));
+        assert_ok(snow_step(copy, 2));
+        assert_true(digest_of(grid) == digest_of(copy));
+        largest = saved.size > largest ? saved.size : largest;
+        free_life(&saved);
+        snow_destroy(copy);
+        snow_destroy(grid);
+    }
+    assert_true(largest > 200000);
+}
+
 static void a_reader_may_end_or_fail_anywhere(void **state)
 {
     (void)state;
     for (size_t i = 0; i < test_life_count; i++) {
         saved_life saved = grown_life(&test_lives[i]);
-        for (size_t end = 0; end < saved.size; end = next_place(end, saved.size)) {
+        for (size_t end = 0; end < saved.size; end++) {
             weak_reader reader = {&saved, 0, 1 + end % 97, end, end % 2 == 1};
             snow_grid *grid = untouched;
             snow_status status = snow_load_from(read_until_end, &reader, NULL, &grid);
@@ -152,7 +169,7 @@ static void damaged_bytes_are_noticed(void **state)
     (void)state;
     for (size_t i = 0; i < test_life_count; i++) {
         saved_life saved = grown_life(&test_lives[i]);
-        for (size_t k = 0; k < saved.size; k = next_place(k, saved.size)) {
+        for (size_t k = 0; k < saved.size; k++) {
             unsigned char harm = (unsigned char)(1U << k % 8);
             saved.bytes[k] ^= harm;
             snow_grid *grid = untouched;
@@ -258,6 +275,7 @@ int main(void)
         cmocka_unit_test(a_writer_may_fail_anywhere),
         cmocka_unit_test(a_buffer_may_end_anywhere),
         cmocka_unit_test(a_reader_may_give_little_at_a_time),
+        cmocka_unit_test(a_large_grid_is_read_whole),
         cmocka_unit_test(a_reader_may_end_or_fail_anywhere),
         cmocka_unit_test(damaged_bytes_are_noticed),
         cmocka_unit_test(a_grid_is_saved_after_every_step),

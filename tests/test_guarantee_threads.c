@@ -8,6 +8,7 @@
 #include <pthread.h>
 #include <stdio.h>
 #include <string.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <time.h>
 #include <unistd.h>
@@ -142,6 +143,34 @@ static void a_grid_may_be_read_by_many_threads(void **state)
     }
 }
 
+/* A grid may wander from thread to thread, as long as one at a time uses it. */
+static void *step_apart(void *context)
+{
+    return snow_step(context, 5) == SNOW_OK ? context : NULL;
+}
+
+static void a_grid_may_change_its_thread(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < test_life_count; i++) {
+        snow_options options = options_of(3);
+        snow_grid *plain = start_life(&test_lives[i], false, NULL);
+        snow_grid *grid = start_life(&test_lives[i], false, &options);
+        for (int round = 0; round < 3; round++) {
+            pthread_t thread;
+            void *answer = NULL;
+            assert_int_equal(0, pthread_create(&thread, NULL, step_apart, grid));
+            assert_int_equal(0, pthread_join(thread, &answer));
+            assert_ptr_equal(grid, answer);
+            assert_ok(snow_step(grid, 2));
+            assert_ok(snow_step(plain, 7));
+            assert_true(digest_of(plain) == digest_of(grid));
+        }
+        snow_destroy(grid);
+        snow_destroy(plain);
+    }
+}
+
 /* --- processes --- */
 
 static void a_child_process_goes_on_with_the_same_bits(void **state)
@@ -225,14 +254,78 @@ static void no_thread_is_left_behind(void **state)
     }
 }
 
+/* A sanitizer's own memory counts as the program's. */
+#ifdef __has_feature
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
+#define SANITIZED
+#endif
+#endif
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#define SANITIZED
+#endif
+
+#ifndef SANITIZED
+/* Room for so many bytes more than the process has. */
+static bool limit_memory(unsigned long long more)
+{
+    unsigned long long pages = 0;
+    FILE *file = fopen("/proc/self/statm", "r");
+    if (file == NULL)
+        return false;
+    bool known = fscanf(file, "%llu", &pages) == 1;
+    fclose(file);
+    struct rlimit limit = {0, 0};
+    limit.rlim_cur = limit.rlim_max = (rlim_t)(pages * (unsigned long long)sysconf(_SC_PAGESIZE) + more);
+    return known && setrlimit(RLIMIT_AS, &limit) == 0;
+}
+
+/* In a child process, for its memory stays limited. */
+static int ask_for_too_many_threads(void)
+{
+    snow_options options;
+    snow_options_init(&options, sizeof options);
+    options.threads = 1024; /* with a stack of 100 kB or more each */
+    if (!limit_memory(50 << 20))
+        return 2;
+    for (size_t i = 0; i < test_life_count; i++) {
+        snow_grid *grid = NULL;
+        snow_status status = test_lives[i].create(false, &options, &grid);
+        if (status != SNOW_ERROR_THREADS || grid != NULL || count_threads_soon(1) != 1)
+            return 1;
+    }
+    return 0;
+}
+#endif
+
+static void threads_that_cannot_be_had_are_told(void **state)
+{
+    (void)state;
+#ifdef SANITIZED
+    skip();
+#else
+    pid_t child = fork();
+    assert_true(child >= 0);
+    if (child == 0)
+        _exit(ask_for_too_many_threads());
+    int status = -1;
+    assert_int_equal(child, waitpid(child, &status, 0));
+    assert_true(WIFEXITED(status));
+    if (WEXITSTATUS(status) == 2)
+        skip();
+    assert_int_equal(0, WEXITSTATUS(status));
+#endif
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(any_number_of_threads_gives_the_same_bits),
         cmocka_unit_test(grids_share_nothing),
         cmocka_unit_test(a_grid_may_be_read_by_many_threads),
+        cmocka_unit_test(a_grid_may_change_its_thread),
         cmocka_unit_test(a_child_process_goes_on_with_the_same_bits),
         cmocka_unit_test(no_thread_is_left_behind),
+        cmocka_unit_test(threads_that_cannot_be_had_are_told),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

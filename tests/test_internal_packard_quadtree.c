@@ -563,6 +563,64 @@ static void regions_are_put_and_copied_at_any_place(void **state)
     }
 }
 
+/* From 0 to a number that may have 63 bits. */
+static int64_t far_below(uint64_t *random, int64_t greatest)
+{
+    uint64_t upper = next_below(random, UINT32_MAX), lower = next_below(random, UINT32_MAX);
+    return (int64_t)((upper << 31 | lower) % ((uint64_t)greatest + 1));
+}
+
+/* Squares that are passed over hold nothing, and each that is shown comes once, in its order. */
+static void squares_with_cells_are_found_in_order(void **state)
+{
+    (void)state;
+    static const int64_t sizes[] = {5, 20, 40, 300, 5000, 1 << 20, SNOW_QUADTREE_REACH};
+    uint64_t stream = 77;
+    for (size_t size = 0; size < sizeof sizes / sizeof sizes[0]; size++) {
+        enum { CELLS = 40 };
+        scene with;
+        int64_t cells[CELLS][2];
+        bool seen[CELLS] = {false};
+        open_scene(&with, rule_of("1"), 0);
+        for (int i = 0; i < CELLS; i++) {
+            for (int axis = 0; axis < 2; axis++)
+                cells[i][axis] = (next_below(&stream, 2) == 0 ? 1 : -1) * far_below(&stream, sizes[size]);
+            put_cell(with.tree, cells[i][0], cells[i][1]);
+        }
+        int64_t last_q = INT64_MIN, last_r = INT64_MIN;
+        int64_t q = -SNOW_QUADTREE_REACH, r = -SNOW_QUADTREE_REACH;
+        for (; snow_quadtree_next(with.tree, &q, &r); q += 64) {
+            assert_true(q % 64 == 0 && r % 64 == 0);
+            assert_true(r > last_r || (r == last_r && q > last_q));
+            last_q = q;
+            last_r = r;
+            for (int i = 0; i < CELLS; i++)
+                seen[i] = seen[i] || (cells[i][0] >= q && cells[i][0] < q + 64 && cells[i][1] >= r &&
+                                      cells[i][1] < r + 64);
+        }
+        for (int i = 0; i < CELLS; i++)
+            assert_true(seen[i]);
+        close_scene(&with);
+    }
+}
+
+static void distances_are_measured_from_the_centre(void **state)
+{
+    (void)state;
+    scene with;
+    open_scene(&with, rule_of("1"), 0);
+    put_cell(with.tree, 10, 0);
+    put_cell(with.tree, -4, 2);
+    assert_count(number(100), measures_of(with.tree).tip_square);
+    snow_quadtree_set_centre(with.tree, 10, 0);
+    assert_count(number(14 * 14 - 14 * 2 + 2 * 2), measures_of(with.tree).tip_square);
+    snow_quadtree_keep(with.tree);
+    snow_quadtree_set_centre(with.tree, -(INT64_C(1) << 40), 0);
+    snow_quadtree_restore(with.tree);
+    assert_count(times((UINT64_C(1) << 40) + 10, number((UINT64_C(1) << 40) + 10)), measures_of(with.tree).tip_square);
+    close_scene(&with);
+}
+
 static void the_reach_is_kept(void **state)
 {
     (void)state;
@@ -846,6 +904,8 @@ int main(void)
         cmocka_unit_test(known_results_are_no_work),
         cmocka_unit_test(what_was_kept_comes_back),
         cmocka_unit_test(regions_are_put_and_copied_at_any_place),
+        cmocka_unit_test(squares_with_cells_are_found_in_order),
+        cmocka_unit_test(distances_are_measured_from_the_centre),
         cmocka_unit_test(the_reach_is_kept),
         cmocka_unit_test(far_cells_are_measured_exactly),
         cmocka_unit_test(a_limit_is_kept_and_the_result_exact),

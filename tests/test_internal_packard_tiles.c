@@ -9,6 +9,7 @@
 #include "base/hexagon.h"
 #include "base/parallel.h"
 #include "packard/tiles.h"
+#include "packard/tiles_index.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -795,6 +796,69 @@ static void cells_far_away(void **state)
 }
 
 /* Long after nothing changes any more, steps cost nothing. */
+static int by_place(const void *a, const void *b)
+{
+    const int32_t *x = a, *y = b;
+    return x[1] != y[1] ? (x[1] > y[1] ? 1 : -1) : (x[0] > y[0]) - (x[0] < y[0]);
+}
+
+/* Against a sorted list; places from the ends of the range, and some side by side. */
+static void the_index_finds_tiles_in_order(void **state)
+{
+    (void)state;
+    enum { PLACES = 3000 };
+    static int32_t places[PLACES][2];
+    static const int32_t special[] = {0, -1, 1, 63, 64, -64, INT32_MAX, INT32_MIN, 4095, 4096};
+    uint64_t stream = 5;
+    snow_heap heap = heap_with_limit(0);
+    tile_index index;
+    assert_true(snow_tile_index_start(&index, &heap));
+    for (int i = 0; i < PLACES; i++) {
+        for (int axis = 0; axis < 2; axis++) {
+            uint64_t kind = draw(&stream) % 4;
+            places[i][axis] = kind == 0   ? special[draw(&stream) % 10]
+                              : kind == 1 ? (int32_t)(uint32_t)draw(&stream)
+                                          : (int32_t)(draw(&stream) % 200) - 100;
+        }
+        assert_true(snow_tile_index_add(&index, places[i][0], places[i][1]));
+    }
+    qsort(places, PLACES, sizeof places[0], by_place);
+    int32_t q = INT32_MIN, r = INT32_MIN;
+    for (int i = 0; i < PLACES; i++) {
+        assert_true(snow_tile_index_next(&index, &q, &r));
+        assert_int_equal(places[i][0], q);
+        assert_int_equal(places[i][1], r);
+        while (i + 1 < PLACES && by_place(places[i], places[i + 1]) == 0)
+            i++;
+        if (q == INT32_MAX && r == INT32_MAX)
+            break;
+        r += q == INT32_MAX;
+        q = q == INT32_MAX ? INT32_MIN : q + 1;
+    }
+    snow_tile_index_end(&index);
+    assert_int_equal(0, heap.used);
+}
+
+static void an_index_without_memory_is_what_it_was(void **state)
+{
+    (void)state;
+    snow_heap heap = heap_with_limit(4000);
+    tile_index index;
+    assert_true(snow_tile_index_start(&index, &heap));
+    int32_t added = 0;
+    while (snow_tile_index_add(&index, 1000 * added, added))
+        added++;
+    assert_in_range(added, 3, 100);
+    int32_t q = INT32_MIN, r = INT32_MIN;
+    for (int32_t i = 0; i < added; i++, q++) {
+        assert_true(snow_tile_index_next(&index, &q, &r));
+        assert_int_equal(1000 * i, q);
+        assert_int_equal(i, r);
+    }
+    assert_false(snow_tile_index_next(&index, &q, &r));
+    snow_tile_index_end(&index);
+}
+
 static void a_still_plane_counts_on(void **state)
 {
     (void)state;
@@ -829,6 +893,8 @@ int main(void)
         cmocka_unit_test(refused_memory_leaves_whole_steps),
         cmocka_unit_test(refused_cells_and_masks_change_nothing),
         cmocka_unit_test(cells_far_away),
+        cmocka_unit_test(the_index_finds_tiles_in_order),
+        cmocka_unit_test(an_index_without_memory_is_what_it_was),
         cmocka_unit_test(a_still_plane_counts_on),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

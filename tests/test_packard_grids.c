@@ -107,6 +107,43 @@ static void a_crystal_beyond_all_bounds_is_saved(void **state)
     snow_destroy(loaded);
 }
 
+/* A seed anywhere costs the quadtree what one at the origin does, and is saved with its place. */
+static void a_crystal_off_the_origin_is_no_dearer(void **state)
+{
+    (void)state;
+    static const snow_cell places[] = {{0, 0}, {1, 0}, {-1000003, 77}};
+    uint64_t least = 0;
+    for (size_t i = 0; i < COUNT_OF(places); i++) {
+        snow_packard_params params = packard_scene("0100000");
+        params.engine = SNOW_PACKARD_ENGINE_QUADTREE;
+        params.seeds = &places[i];
+        params.seed_count = 1;
+        snow_grid *grid = make_packard(&params, NULL), *loaded = NULL;
+        assert_ok(snow_step(grid, 1 << 14));
+        uint64_t memory = 0;
+        assert_ok(snow_memory(grid, &memory));
+        least = i == 0 ? memory : least;
+        assert_in_range(memory, least, least + least / 50);
+        size_t size;
+        unsigned char *bytes = save(grid, &size);
+        assert_ok(snow_load(bytes, size, NULL, &loaded));
+        snow_hexagon expected, got;
+        for (int part = 0; part < 2; part++) {
+            assert_ok(snow_frozen_hexagon(grid, &expected));
+            assert_ok(snow_frozen_hexagon(loaded, &got));
+            assert_memory_equal(&expected, &got, sizeof got);
+            assert_int_equal(places[i].q - (1 << 14) - 100 * part, got.least_q);
+            assert_int_equal(places[i].r + (1 << 14) + 100 * part, got.greatest_r);
+            assert_same_double(tip_of(grid), tip_of(loaded));
+            assert_ok(snow_step(grid, 100));
+            assert_ok(snow_step(loaded, 100));
+        }
+        free(bytes);
+        snow_destroy(grid);
+        snow_destroy(loaded);
+    }
+}
+
 static void what_is_too_large_is_said(void **state)
 {
     (void)state;
@@ -516,6 +553,7 @@ int main(void)
         cmocka_unit_test(save_load_continue_is_continue),
         cmocka_unit_test(damaged_snapshots_are_refused),
         cmocka_unit_test(a_crystal_beyond_all_bounds_is_saved),
+        cmocka_unit_test(a_crystal_off_the_origin_is_no_dearer),
         cmocka_unit_test(what_is_too_large_is_said),
         cmocka_unit_test(steps_end_at_their_limit),
         cmocka_unit_test(bits_are_the_frozen_cells),

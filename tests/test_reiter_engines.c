@@ -240,11 +240,32 @@ static void fields_larger_than_a_cache(void **state)
     folded.noise = 0.3;
     folded.noise_symmetric = 1;
     assert_passes_equal_steps(&folded);
+    folded.width = 16801;
+    folded.precision = SNOW_REITER_PRECISION_SINGLE;
+    assert_passes_equal_steps(&folded);
     snow_reiter_params disc = disc_scene(0.6, 0.2, 1.5, 1050);
     disc.noise = 0.2;
     disc.noise_symmetric = 1;
     disc.symmetry = SNOW_REITER_SYMMETRY_AUTO;
     assert_passes_equal_steps(&disc);
+}
+
+/* A run with passes ends as one with two threads does, where no pass is taken: why? */
+static snow_stop_reason both_ends(const snow_reiter_params *params, const snow_stop *stop)
+{
+    snow_options options = default_options();
+    snow_grid *passes = make_grid(params, &options);
+    options.threads = 2;
+    snow_grid *steps = make_grid(params, &options);
+    snow_summary expected = run_grid(steps, stop);
+    snow_summary summary = run_grid(passes, stop);
+    assert_int_equal(expected.reason, summary.reason);
+    assert_int_equal(expected.steps, summary.steps);
+    assert_int_equal(expected.frozen, summary.frozen);
+    assert_true(digest_of(steps) == digest_of(passes));
+    snow_destroy(steps);
+    snow_destroy(passes);
+    return summary.reason;
 }
 
 /* A pass must not step past the end of a run. */
@@ -259,20 +280,45 @@ static void a_pass_stops_where_single_steps_stop(void **state)
             snow_stop stop = default_stop();
             stop.tip_radius = radii[i];
             stop.frozen = frozen;
-            snow_options options = default_options();
-            snow_grid *passes = make_grid(&params, &options);
-            options.threads = 2; /* where no pass is taken */
-            snow_grid *steps = make_grid(&params, &options);
-            snow_summary expected = run_grid(steps, &stop);
-            snow_summary summary = run_grid(passes, &stop);
-            assert_int_equal(expected.reason, summary.reason);
-            assert_int_equal(expected.steps, summary.steps);
-            assert_int_equal(expected.frozen, summary.frozen);
-            assert_true(digest_of(steps) == digest_of(passes));
-            snow_destroy(steps);
-            snow_destroy(passes);
+            snow_stop_reason reason = both_ends(&params, &stop);
+            assert_true(reason == SNOW_STOP_RADIUS || (frozen > 0 && reason == SNOW_STOP_FROZEN));
         }
     }
+}
+
+/* Nor past the step in which ice comes near the rim, however the domain says where that is. */
+static void a_pass_stops_at_every_rim(void **state)
+{
+    (void)state;
+    static const snow_cell inward[] = {{500, 0}}, low[] = {{0, -200}};
+    snow_reiter_params scenes[] = {disc_scene(0.5, 0.3, 1, 530), hexagon_scene(0.5, 0.3, 1, 530),
+                                   rectangle_scene(0.5, 0.3, 1, 1050, 530)};
+    scenes[2].rim = SNOW_REITER_RIM_ROW;
+    snow_stop stop = default_stop();
+    for (size_t i = 0; i < COUNT_OF(scenes); i++) {
+        scenes[i].noise = 0.3;
+        scenes[i].seeds = i < 2 ? inward : low;
+        scenes[i].seed_count = 1;
+        assert_int_equal(SNOW_STOP_RIM, both_ends(&scenes[i], &stop));
+    }
+}
+
+/* Quiet on one side, where fast ice wakes the cells before it; so restless on the other that passes are worth it. */
+static double half_restless(void *context, int32_t q, int32_t r)
+{
+    (void)context;
+    return q < 0 ? 0.2 + ((q * 31 + r * 17) & 63) / 128.0 : 0.3;
+}
+
+static void ice_wakes_quiet_cells_within_a_pass(void **state)
+{
+    (void)state;
+    static const snow_cell seeds[] = {{600, 0}, {-600, 5}};
+    snow_reiter_params params = rectangle_scene(0, 1, 1, 2401, 601);
+    params.background_at = half_restless;
+    params.seeds = seeds;
+    params.seed_count = COUNT_OF(seeds);
+    assert_passes_equal_steps(&params);
 }
 
 /* The lattice in three colours, none next to itself: a cell of the first has six neighbours of the others. */
@@ -427,6 +473,8 @@ int main(void)
         cmocka_unit_test(random_scenes),
         cmocka_unit_test(fields_larger_than_a_cache),
         cmocka_unit_test(a_pass_stops_where_single_steps_stop),
+        cmocka_unit_test(a_pass_stops_at_every_rim),
+        cmocka_unit_test(ice_wakes_quiet_cells_within_a_pass),
         cmocka_unit_test(vapour_freezes_by_itself),
         cmocka_unit_test(vapour_falls_below_zero),
         cmocka_unit_test(whole_runs),

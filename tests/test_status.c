@@ -37,6 +37,7 @@ static const struct {
     {SNOW_ERROR_READ, 305},
     {SNOW_ERROR_UNSTABLE, 400},
     {SNOW_ERROR_STEP_LIMIT, 401},
+    {SNOW_ERROR_FULL, 420},
     {SNOW_ERROR_REITER_BACKGROUND, 1000},
     {SNOW_ERROR_REITER_ADDITION, 1001},
     {SNOW_ERROR_REITER_DIFFUSION, 1002},
@@ -67,6 +68,26 @@ static const struct {
     {SNOW_ERROR_PACKARD_ZONE, 2013},
     {SNOW_ERROR_PACKARD_RLE, 2014},
     {SNOW_ERROR_PACKARD_RLE_STATES, 2015},
+    {SNOW_ERROR_AGGREGATE_LATTICE, 3000},
+    {SNOW_ERROR_AGGREGATE_CONTACT, 3001},
+    {SNOW_ERROR_AGGREGATE_STICKING, 3002},
+    {SNOW_ERROR_AGGREGATE_HITS, 3003},
+    {SNOW_ERROR_AGGREGATE_KILL, 3004},
+    {SNOW_ERROR_AGGREGATE_SEED, 3005},
+    {SNOW_ERROR_AGGREGATE_OBSTACLE, 3006},
+    {SNOW_ERROR_AGGREGATE_OVERLAP, 3007},
+    {SNOW_ERROR_AGGREGATE_LAUNCH, 3008},
+    {SNOW_ERROR_AGGREGATE_PATH, 3009},
+    {SNOW_ERROR_AGGREGATE_RADIUS, 3010},
+    {SNOW_ERROR_AGGREGATE_SIDES, 3011},
+    {SNOW_ERROR_AGGREGATE_INTERACTION, 3012},
+    {SNOW_ERROR_AGGREGATE_HARDNESS, 3013},
+    {SNOW_ERROR_AGGREGATE_WALLS, 3014},
+    {SNOW_ERROR_AGGREGATE_PARTICLES, 3015},
+    {SNOW_ERROR_AGGREGATE_DENSITY, 3016},
+    {SNOW_ERROR_AGGREGATE_MOBILITY, 3017},
+    {SNOW_ERROR_AGGREGATE_PRESET, 3018},
+    {SNOW_ERROR_AGGREGATE_ENGINE, 3019},
 };
 
 static void status_numbers_never_change(void **state)
@@ -96,7 +117,7 @@ static void each_status_has_its_own_text(void **state)
 static void unknown_statuses_have_a_text(void **state)
 {
     (void)state;
-    static const int numbers[] = {-1, 1, 112, 205, 306, 402, 999, 1014, INT_MAX, INT_MIN};
+    static const int numbers[] = {-1, 1, 112, 205, 306, 402, 421, 999, 1014, 2016, 3020, INT_MAX, INT_MIN};
     for (size_t i = 0; i < COUNT_OF(numbers); i++)
         assert_string_equal(snow_strerror((snow_status)99), snow_strerror((snow_status)numbers[i]));
 }
@@ -113,13 +134,14 @@ static void stop_reasons_have_names(void **state)
         {SNOW_STOP_RADIUS, 3, "radius"}, {SNOW_STOP_FROZEN, 4, "frozen"},
         {SNOW_STOP_STILL, 5, "still"},   {SNOW_STOP_TIME, 6, "time"},
         {SNOW_STOP_CANCELLED, 7, "cancelled"}, {SNOW_STOP_UNSTABLE, 8, "unstable"},
+        {SNOW_STOP_FULL, 9, "full"},     {SNOW_STOP_HEIGHT, 10, "height"},
     };
     for (size_t i = 0; i < COUNT_OF(reasons); i++) {
         assert_int_equal(reasons[i].number, reasons[i].reason);
         assert_string_equal(reasons[i].name, snow_stop_name(reasons[i].reason));
     }
     assert_non_null(snow_stop_name(SNOW_STOP_NONE));
-    static const int unknown[] = {-1, 9, INT_MAX, INT_MIN};
+    static const int unknown[] = {-1, 11, INT_MAX, INT_MIN};
     for (size_t i = 0; i < COUNT_OF(unknown); i++)
         assert_non_null(snow_stop_name((snow_stop_reason)unknown[i]));
 }

@@ -377,8 +377,10 @@ SNOW_API snow_status snow_packard_load_rle_from(snow_reader read, void *context,
  * @param size receives the size in bytes, also when the buffer is too small.
  * @return ::SNOW_OK, ::SNOW_ERROR_NULL; ::SNOW_ERROR_UNSUPPORTED for another
  *         model; ::SNOW_ERROR_BUFFER, nothing is written;
- *         ::SNOW_ERROR_TOO_LARGE where snow_frozen_bounds() says so. Cost: that
- *         of the rectangle that snow_frozen_bounds() tells, twice with a buffer.
+ *         ::SNOW_ERROR_TOO_LARGE for what snow_packard_load_rle() would not
+ *         read: a row or column of the pattern beyond ±2^30, or more than 2^32
+ *         frozen cells. Cost: that of the parts of the plane that hold frozen
+ *         cells, twice with a buffer; what lies between them is written as numbers.
  */
 SNOW_API snow_status snow_packard_save_rle(const snow_grid *grid, void *buffer, size_t capacity, size_t *size);
 

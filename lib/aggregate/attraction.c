@@ -27,8 +27,10 @@ static snow_status list_disc(attraction *self, snow_heap *heap, int32_t greatest
     for (int32_t square = 0; square <= greatest; square++)
         count[square + 1] += count[square];
     self->offsets = count[greatest + 1];
-    for (int32_t d = 0; d <= self->reach + 1; d++)
-        self->start[d] = d * d <= greatest ? count[d * d] : (uint32_t)self->offsets;
+    for (int32_t d = 0; d <= self->reach + 1; d++) {
+        int32_t square = d * d;
+        self->start[d] = square <= greatest ? count[square] : (uint32_t)self->offsets;
+    }
     self->offset = snow_heap_get(heap, self->offsets, sizeof *self->offset);
     for (int32_t y = -self->reach; y <= self->reach && self->offset != NULL; y++)
         for (int32_t x = -self->reach; x <= self->reach; x++)

@@ -12,7 +12,7 @@ static size_t columns_of(const torus *self)
 
 snow_status snow_box_start(torus *self, snow_heap *heap, int32_t side, int axes)
 {
-    *self = (torus){.side = side, .axes = axes, .columns = ((size_t)side + 2 * SNOW_BOX_WORD) / 64 + 2};
+    *self = (torus){.side = side, .axes = axes, .columns = ((size_t)side + 2 * (size_t)SNOW_BOX_WORD) / 64 + 2};
     self->bits = snow_heap_get(heap, columns_of(self), (size_t)side * sizeof *self->bits);
     return self->bits != NULL ? SNOW_OK : heap->refusal;
 }

@@ -1,6 +1,7 @@
 /* Growth probabilities, sampled by walks that change nothing. */
 #include "aggregate/chances.h"
 #include "base/floating.h"
+#include "base/sort.h"
 
 /* One walk; lost walkers send another one with the next number. */
 static snow_status probe(const snow_grid *grid, uint64_t key, uint64_t *walker, snow_site *end)
@@ -39,37 +40,15 @@ static snow_status count_walks(const snow_grid *grid, uint64_t walks, uint64_t k
     return SNOW_OK;
 }
 
-static bool is_before(snow_site a, snow_site b)
+static int compare_sites(const void *a, const void *b)
 {
-    if (a.z != b.z)
-        return a.z < b.z;
-    return a.y != b.y ? a.y < b.y : a.x < b.x;
-}
-
-/* Sorts by a heap: it needs no memory and has no bad case. */
-static void sift(snow_aggregate_chance *list, size_t root, size_t count)
-{
-    for (size_t child = 2 * root + 1; child < count; root = child, child = 2 * root + 1) {
-        if (child + 1 < count && is_before(list[child].site, list[child + 1].site))
-            child++;
-        if (!is_before(list[root].site, list[child].site))
-            return;
-        snow_aggregate_chance swap = list[root];
-        list[root] = list[child];
-        list[child] = swap;
-    }
-}
-
-static void sort(snow_aggregate_chance *list, size_t count)
-{
-    for (size_t i = count / 2; i > 0; i--)
-        sift(list, i - 1, count);
-    for (size_t i = count; i > 1; i--) {
-        snow_aggregate_chance swap = list[0];
-        list[0] = list[i - 1];
-        list[i - 1] = swap;
-        sift(list, 0, i - 1);
-    }
+    snow_site x = ((const snow_aggregate_chance *)a)->site;
+    snow_site y = ((const snow_aggregate_chance *)b)->site;
+    if (x.z != y.z)
+        return x.z < y.z ? -1 : 1;
+    if (x.y != y.y)
+        return x.y < y.y ? -1 : 1;
+    return (x.x > y.x) - (x.x < y.x);
 }
 
 static snow_status list_hits(const snow_table *hits, bool space, double walks, snow_heap *heap,
@@ -86,7 +65,7 @@ static snow_status list_hits(const snow_table *hits, bool space, double walks, s
         (*found)[there++] = (snow_aggregate_chance){snow_site_unpack(space, hits->key[i]), chance,
                                                     sqrt(chance * (1 - chance) / walks)};
     }
-    sort(*found, there);
+    snow_sort(*found, there, sizeof **found, compare_sites);
     return SNOW_OK;
 }
 

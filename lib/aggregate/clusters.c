@@ -22,7 +22,7 @@ static bool is_large(const clusters *self, uint32_t mass)
 static size_t most_hits(const clusters *self)
 {
     size_t particles = self->particles;
-    return self->box.side < SNOW_BOX_WORD ? 6 * particles : particles + 6 * SNOW_LARGE_CLUSTER;
+    return self->box.side < SNOW_BOX_WORD ? 6 * particles : particles + 6 * (size_t)SNOW_LARGE_CLUSTER;
 }
 
 static snow_status get_lists(clusters *self, snow_heap *heap)

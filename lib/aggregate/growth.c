@@ -99,22 +99,26 @@ static snow_status fit(snow_growth *growth, snow_heap *heap, int64_t farthest)
     return status;
 }
 
+static snow_status reserve(snow_growth *growth, snow_heap *heap)
+{
+    snow_ground *ground = &growth->ground;
+    return is_in_space(growth) ? snow_space_map_reserve(&ground->space, heap) : snow_plane_map_reserve(&ground->plane, heap);
+}
+
+/* What can fail comes before what shows: a walker that has to come again must find what it found. */
 static snow_status add(snow_growth *growth, snow_heap *heap, snow_site site, bool obstacle)
 {
     int64_t distance = distance_of(growth, site);
-    snow_status status = distance > growth->farthest ? fit(growth, heap, distance) : SNOW_OK;
+    snow_status status = reserve(growth, heap);
+    if (status == SNOW_OK && distance > growth->farthest)
+        status = fit(growth, heap, distance);
     if (status != SNOW_OK)
         return status;
-    if (is_in_space(growth)) {
-        status = snow_space_map_reserve(&growth->ground.space, heap);
-        if (status == SNOW_OK)
-            snow_space_map_add(&growth->ground.space, site.x, site.y, site.z, obstacle);
-    } else {
-        status = snow_plane_map_reserve(&growth->ground.plane, heap);
-        if (status == SNOW_OK)
-            snow_plane_map_add(&growth->ground.plane, site.x, site.y, obstacle);
-    }
-    return status;
+    if (is_in_space(growth))
+        snow_space_map_add(&growth->ground.space, site.x, site.y, site.z, obstacle);
+    else
+        snow_plane_map_add(&growth->ground.plane, site.x, site.y, obstacle);
+    return SNOW_OK;
 }
 
 static snow_status add_floor(snow_growth *growth, snow_heap *heap)

@@ -246,7 +246,7 @@ static snow_status solve(harmonic *self, snow_aggregate_lattice lattice)
     self->matrix = snow_heap_get_raw(self->heap, self->count * self->count, sizeof *self->matrix);
     if (self->matrix != NULL)
         self->chance = snow_heap_get_raw(self->heap, self->count, sizeof *self->chance);
-    if (self->chance == NULL)
+    if (self->matrix == NULL || self->chance == NULL)
         return self->heap->refusal;
     solve_equations(self);
     bound_errors(self);

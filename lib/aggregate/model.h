@@ -21,7 +21,7 @@ typedef struct aggregate_scene {
     snow_status (*check)(const snow_grid *grid);
     /* Makes room for one more particle, wherever it may join. NULL: there always is. */
     snow_status (*prepare)(snow_grid *grid);
-    /* Fills a site; after prepare() it does not fail. */
+    /* Fills a site; after prepare() it does not fail. NULL: particles are not in the list of sites. */
     snow_status (*place)(snow_grid *grid, snow_site site);
     /* One walker against the cluster as it stands: where it ends, or false when
        it is lost. NULL: the scene has its own grow(). */

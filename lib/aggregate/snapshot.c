@@ -119,6 +119,11 @@ typedef struct saved_scene {
     size_t site_count;
 } saved_scene;
 
+static bool has_seeds(const snow_aggregate_params *params)
+{
+    return params->scene != SNOW_AGGREGATE_SHORE && params->scene != SNOW_AGGREGATE_CLUSTER_CLUSTER;
+}
+
 static snow_status load_scene(snow_source *source, snow_heap *heap, saved_scene *saved)
 {
     load_params(source, &saved->params);
@@ -135,6 +140,8 @@ static snow_status load_scene(snow_source *source, snow_heap *heap, saved_scene 
         status = load_sites(source, space, heap, &saved->sites, &saved->site_count);
     if (status == SNOW_OK && (saved->seeds > saved->site_count || saved->site_count > AGGREGATE_MOST_PARTICLES))
         status = SNOW_ERROR_DAMAGED;
+    if (status == SNOW_OK && saved->seeds > 0 && !has_seeds(&saved->params))
+        status = SNOW_ERROR_DAMAGED;
     return status;
 }
 
@@ -142,9 +149,8 @@ static snow_status load_scene(snow_source *source, snow_heap *heap, saved_scene 
 static snow_status begin(const saved_scene *saved, const snow_options *options, snow_grid **grid)
 {
     snow_aggregate_params params = saved->params;
-    bool own_seeds = params.scene != SNOW_AGGREGATE_SHORE && params.scene != SNOW_AGGREGATE_CLUSTER_CLUSTER;
-    params.seeds = own_seeds ? saved->sites : NULL;
-    params.seed_count = own_seeds ? (size_t)saved->seeds : 0;
+    params.seeds = has_seeds(&params) ? saved->sites : NULL;
+    params.seed_count = (size_t)saved->seeds;
     params.obstacles = saved->obstacle_count > 0 ? saved->obstacles : NULL;
     params.obstacle_count = saved->obstacle_count;
     snow_status status = snow_aggregate_build(&params, options, true, grid);
@@ -164,6 +170,8 @@ static bool fits(const snow_grid *grid, const saved_scene *saved, snow_site site
 static snow_status rejoin(snow_grid *grid, const saved_scene *saved)
 {
     aggregate *model = aggregate_of(grid);
+    if (model->scene->place == NULL) /* its particles are in its own part of the data */
+        return saved->site_count == 0 ? SNOW_OK : SNOW_ERROR_DAMAGED;
     snow_order placed = {0};
     snow_status status = snow_aggregate_reserve(grid, saved->site_count - saved->seeds);
     if (status == SNOW_OK)

@@ -88,3 +88,12 @@ snow_stop_reason snow_crystal_stops(const snow_grid *grid, const snow_stop *stop
         return SNOW_STOP_STEPS;
     return SNOW_STOP_NONE;
 }
+
+bool snow_frozen_next(const snow_grid *grid, snow_rect *part)
+{
+    if (grid->operations->next_frozen != NULL)
+        return grid->operations->next_frozen(grid, part);
+    bool first = part->width == 0;
+    *part = first ? snow_domain_rect(&grid->census.hexagon) : (snow_rect){0, 0, 0, 0};
+    return part->width > 0;
+}

@@ -58,6 +58,7 @@ snow_stop_reason snow_crystal_stops(const snow_grid *grid, const snow_stop *stop
 typedef struct snow_model_operations {
     snow_model model;
     const char *name;
+    bool binary; /* the value of a cell is 0 or 1 */
 
     /* Takes at least one step and at most `most`, but none after one in which a
        condition of `stop` (NULL: none) on the crystal comes true. Where a step can
@@ -68,6 +69,8 @@ typedef struct snow_model_operations {
     snow_status (*can_read)(const snow_grid *grid, snow_field field);
     /* count values of row r from column q on; any cells. */
     void (*read)(const snow_grid *grid, snow_field field, int64_t q, int64_t r, size_t count, double *values);
+    /* As snow_frozen_next(). NULL: all in one part. */
+    bool (*next_frozen)(const snow_grid *grid, snow_rect *part);
     /* All or nothing. */
     snow_status (*set)(snow_grid *grid, snow_field field, const snow_rect *rect, const double *values);
     /* All that makes up the crystal, beside model and step count. NULL: the values of all cells of the domain. */
@@ -95,6 +98,10 @@ snow_status snow_grid_new(const snow_model_operations *operations, const snow_op
 void snow_grid_end(snow_grid *grid);
 /* The end of making a grid: `result` receives it if all went well, else it is ended, unless it is NULL. Returns the status. */
 snow_status snow_grid_hand_over(snow_grid *grid, snow_status status, snow_grid **result);
+
+/* Moves on from one part of the plane to the next, starting from an empty one: together they hold all frozen cells, so
+   that nobody looks through the space between them. False: that was the last. Only where snow_domain_reaches(). */
+bool snow_frozen_next(const snow_grid *grid, snow_rect *part);
 
 /* Runs count tasks on the grid's threads, or the caller's. */
 void snow_grid_for(const snow_grid *grid, size_t count, snow_task task, void *argument);

@@ -82,7 +82,7 @@ const char *snow_strerror(snow_status status)
     case SNOW_ERROR_AGGREGATE_PARTICLES: return "the number of particles is 0 or too great";
     case SNOW_ERROR_AGGREGATE_DENSITY: return "the density must be above 0 and at most 1/2";
     case SNOW_ERROR_AGGREGATE_MOBILITY: return "the mobility exponent must be between 0 and 4";
-    case SNOW_ERROR_AGGREGATE_PRESET: return "there is no preset of this name";
+    case SNOW_ERROR_AGGREGATE_PRESET: return "there is no preset of aggregation of this name";
     case SNOW_ERROR_AGGREGATE_ENGINE: return "the engine does not know the scene";
     }
     return "unknown status";

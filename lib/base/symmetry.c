@@ -132,7 +132,7 @@ static int64_t floor_divide(int64_t a, int64_t b)
 }
 
 /* Narrows [*first, *end) of row r to where height(P) >= height(image of P),
-   which is linear: a·q + b·r >= 0. */
+   which is linear: a·q + b·r >= 0. No unit vector is higher than (1, 0), so that a >= 0. */
 static void cut(int symmetry, int64_t r, int64_t *first, int64_t *end)
 {
     int64_t q_q, q_r, r_q, r_r;
@@ -143,9 +143,6 @@ static void cut(int symmetry, int64_t r, int64_t *first, int64_t *end)
     if (a > 0) {
         int64_t least = -floor_divide(b, a);
         *first = least > *first ? least : *first;
-    } else if (a < 0) {
-        int64_t most = floor_divide(b, -a);
-        *end = most + 1 < *end ? most + 1 : *end;
     } else if (b < 0) {
         *end = *first;
     }

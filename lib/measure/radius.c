@@ -51,8 +51,9 @@ static snow_status count_masses(const snow_grid *grid, const double *radii, size
         return status;
     for (size_t i = 0; i < count; i++)
         masses[i] = 0;
-    for (int32_t y = 0; y < rect.height; y++)
-        add_row(grid, &rect, (int64_t)rect.r + y, radii, count, masses);
+    for (snow_rect part = {0, 0, 0, 0}; snow_frozen_next(grid, &part);)
+        for (int32_t y = 0; y < part.height; y++)
+            add_row(grid, &part, (int64_t)part.r + y, radii, count, masses);
     for (size_t i = 1; i < count; i++)
         masses[i] += masses[i - 1];
     return SNOW_OK;

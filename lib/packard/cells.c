@@ -32,16 +32,6 @@ snow_status snow_packard_count(snow_grid *grid)
     return status;
 }
 
-/* Far more empty cells than anyone should look through. */
-static bool is_sparse(const snow_grid *grid)
-{
-    const double bearable = 0x1p26;
-    const double bearable_for_frozen = 0x1p10;
-    packard_region bounds = snow_packard_bounds(grid);
-    double frozen = (double)snow_census_frozen(&grid->census);
-    return (double)bounds.width * (double)bounds.height > bearable + bearable_for_frozen * frozen;
-}
-
 /* Where the centre of all symmetries is, if domain, zones and the crystal's extents have them. */
 static packard_fold possible_fold(const snow_grid *grid)
 {
@@ -51,7 +41,7 @@ static packard_fold possible_fold(const snow_grid *grid)
     bool anywhere = packard_is_plane(model);
     bool bounded = model->params.domain == SNOW_PACKARD_DISC || model->params.domain == SNOW_PACKARD_HEXAGON;
     bool lonely = model->params.rule % 2 != 0; /* such a rule needs all cells, those that nothing touches too */
-    if ((!anywhere && !bounded) || lonely || snow_hexagon_is_empty(hexagon) || is_sparse(grid))
+    if ((!anywhere && !bounded) || lonely || snow_hexagon_is_empty(hexagon) || snow_packard_is_sparse(grid))
         return none;
     int64_t reach = (hexagon->greatest_q - hexagon->least_q) / 2;
     packard_fold fold = {true, hexagon->least_q + reach, hexagon->least_r + reach};
@@ -102,31 +92,42 @@ static bool block_next(row_block *rows)
     return left > 0;
 }
 
-typedef struct copying {
-    const packard *from, *to;
-} copying;
-
-/* A packard_visitor. */
-static snow_status copy_region(void *context, const packard_region *region, const uint64_t *words)
+snow_status snow_packard_put_block(const packard *from, const packard *to, const packard_region *block,
+                                   const uint64_t *words)
 {
-    const copying *copy = context;
-    return copy->from->params.record_freeze_steps ? put_dates(copy->from, copy->to, region, words)
-                                                  : copy->to->engine->put(copy->to->cells, region, words);
+    return from->params.record_freeze_steps ? put_dates(from, to, block, words)
+                                            : to->engine->put(to->cells, block, words);
 }
 
-static snow_status copy_cells(snow_grid *grid, const packard *from, const packard *to)
+static snow_status copy_blocks(const snow_grid *grid, const packard *from, const packard *to)
 {
-    copying copy = {from, to};
-    if (from->engine->visit != NULL && !from->fold.possible && is_sparse(grid))
-        return from->engine->visit(from->cells, copy_region, &copy);
+    uint64_t words[PACKARD_BLOCK];
+    packard_region block;
+    snow_status status = SNOW_OK;
+    for (bool more = snow_packard_first_block(grid, &block); more && status == SNOW_OK;
+         more = snow_packard_next_block(grid, &block)) {
+        from->engine->copy(from->cells, &block, words);
+        status = snow_packard_put_block(from, to, &block, words);
+    }
+    return status;
+}
+
+static snow_status copy_rows(snow_grid *grid, const packard *from, const packard *to)
+{
     row_block rows;
     snow_status status = block_start(grid, &rows);
     while (status == SNOW_OK && block_next(&rows)) {
         from->engine->copy(from->cells, &rows.block, rows.words);
-        status = copy_region(&copy, &rows.block, rows.words);
+        status = snow_packard_put_block(from, to, &rows.block, rows.words);
     }
     snow_heap_put(&grid->heap, rows.words);
     return status;
+}
+
+/* Rows are long, and that is what the quadtree likes. */
+static snow_status copy_cells(snow_grid *grid, const packard *from, const packard *to)
+{
+    return snow_packard_is_sparse(grid) ? copy_blocks(grid, from, to) : copy_rows(grid, from, to);
 }
 
 /* The grid with a new engine, or another fold. */

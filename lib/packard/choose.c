@@ -27,10 +27,8 @@ static const double start_for_area = 5;
 static const double start_share = 0.2;
 static const double trial_share = 0.08;
 
-/* Below this the tiles are through before the quadtree can show what it is good
-   for; it needs longer where the crystal's symmetries are not about the origin. */
+/* Below this the tiles are through before the quadtree can show what it is good for. */
 static const double least_work = 3e6;
-static const double longer_aside = 4;
 
 /* The trial ends early when the quadtree will need only this part of what the tiles need. */
 static const double clear_share = 0.5;
@@ -112,9 +110,7 @@ static bool is_worth_a_trial(const snow_grid *grid, int64_t ahead)
     const packard_trial *trial = &packard_of(grid)->trial;
     double work = tile_work(grid, ahead);
     bool may_come_back = work >= hopeless_work || fits_tiles(grid);
-    const packard_fold *fold = &packard_of(grid)->fold;
-    bool aside = fold->possible && (fold->q != 0 || fold->r != 0);
-    return work >= least_work * (aside ? longer_aside : 1) && may_come_back && start_share * work >= start_work(grid) &&
+    return work >= least_work && may_come_back && start_share * work >= start_work(grid) &&
            size_of(grid) + (double)ahead >= second_chance * trial->left_for;
 }
 

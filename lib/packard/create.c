@@ -83,9 +83,11 @@ static void destroy(snow_grid *grid)
 const snow_model_operations snow_packard_operations = {
     .model = SNOW_MODEL_PACKARD,
     .name = "packard",
+    .binary = true,
     .advance = snow_packard_advance,
     .can_read = snow_packard_can_read,
     .read = snow_packard_read,
+    .next_frozen = snow_packard_next_frozen,
     .set = snow_packard_set,
     .save = snow_packard_save,
     .load = snow_packard_load,

@@ -158,22 +158,15 @@ static void copy(const void *engine, const packard_region *region, uint64_t *wor
                        words + (size_t)y * stride);
 }
 
-typedef struct guide {
-    packard_visitor visitor;
-    void *context;
-} guide;
-
-/* A snow_tile_visitor. */
-static snow_status show(void *context, int64_t q, int64_t r, const uint64_t *rows)
+static bool next(const void *engine, int64_t *q, int64_t *r)
 {
-    const guide *to = context;
-    return to->visitor(to->context, &(packard_region){q, r, SNOW_TILE_SIDE, SNOW_TILE_SIDE}, rows);
-}
-
-static snow_status visit(const void *engine, packard_visitor visitor, void *context)
-{
-    guide to = {visitor, context};
-    return snow_tiles_visit(((const tile_cells *)engine)->tiles, show, &to);
+    const tile_cells *cells = engine;
+    int64_t tile_q = *q - cells->q;
+    int64_t tile_r = *r - cells->r;
+    bool found = snow_tiles_next(cells->tiles, &tile_q, &tile_r);
+    *q = tile_q + cells->q;
+    *r = tile_r + cells->r;
+    return found;
 }
 
 static int64_t date(const void *engine, int64_t q, int64_t r)
@@ -241,7 +234,7 @@ const packard_engine snow_packard_tiles = {
     .put = put,
     .put_dated = put_dated,
     .copy = copy,
-    .visit = visit,
+    .next = next,
     .date = date,
     .advance = advance,
     .change_zones = change_zones,

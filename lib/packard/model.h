@@ -10,7 +10,8 @@ extern const snow_model_operations snow_packard_operations;
 
 enum {
     PACKARD_RULES = 128,
-    PACKARD_WORD = 64 /* cells in a word of bits */
+    PACKARD_WORD = 64, /* cells in a word of bits */
+    PACKARD_BLOCK = 64 /* rows and columns of a block of cells */
 };
 
 /* Words that hold so many bits. */
@@ -51,9 +52,6 @@ typedef struct packard_fold {
     int64_t q, r; /* the cell */
 } packard_fold;
 
-/* Sees cells of a region, rows of whole words. */
-typedef snow_status (*packard_visitor)(void *context, const packard_region *region, const uint64_t *words);
-
 /* What computes the steps. The cells are the engine's own; the heap and all
    that is not cells is the grid's. */
 typedef struct packard_engine {
@@ -61,14 +59,17 @@ typedef struct packard_engine {
     /* An empty plane at the grid's step count. */
     snow_status (*create)(snow_grid *grid, const packard_fold *fold, void **cells);
     void (*destroy)(snow_grid *grid, void *cells);
-    /* Freezes the cells whose bits are set. On failure some are. */
+    /* Freezes the cells whose bits are set. On failure some are. Where cells can melt, those whose bits are not set do:
+       the engine also has keep() and restore(), and is for the plane, without freeze steps. */
+    bool melts;
     snow_status (*put)(void *cells, const packard_region *region, const uint64_t *words);
     /* Freezes a cell, and says when; only of grids that record it. */
     snow_status (*put_dated)(void *cells, int64_t q, int64_t r, int64_t step);
     void (*copy)(const void *cells, const packard_region *region, uint64_t *words);
-    /* Shows all frozen cells of an unfolded plane, in regions that do not overlap;
-       ends at the first failure. NULL: it cannot. */
-    snow_status (*visit)(const void *cells, packard_visitor visitor, void *context);
+    /* Cells come in blocks of 64 by 64, wherever the engine has the first one. Moves on to the first cell of the
+       first block that may hold frozen cells, row by row of blocks, and not before the block with this cell. False:
+       there is none. NULL: any block may hold some. Not for a fold. */
+    bool (*next)(const void *cells, int64_t *q, int64_t *r);
     /* −1: not frozen. Only of grids that record it. */
     int64_t (*date)(const void *cells, int64_t q, int64_t r);
     /* Takes so many steps, in which the same zones apply, or stops after a part of them, so that a caller with little
@@ -163,8 +164,26 @@ snow_status snow_packard_build(const snow_packard_params *params, const snow_opt
 /* seeds.c */
 snow_status snow_packard_plant(snow_grid *grid, const snow_packard_params *params);
 
+/* blocks.c */
+/* The first block, row by row of blocks, that may hold frozen cells and is not before the one with this cell; without
+   what lies outside the bounds of all frozen cells. False: there is none.
+
+       for (bool more = snow_packard_first_block(grid, &block); more; more = snow_packard_next_block(grid, &block)) */
+bool snow_packard_block_from(const snow_grid *grid, int64_t q, int64_t r, packard_region *block);
+bool snow_packard_first_block(const snow_grid *grid, packard_region *block);
+bool snow_packard_next_block(const snow_grid *grid, packard_region *block);
+/* Cells of row r from q on, at most so many, past those that are known not to be frozen. False: none are left. */
+bool snow_packard_next_in_row(const snow_grid *grid, int64_t q, int64_t r, int64_t most, packard_region *part);
+/* A snow_model_operations.next_frozen. */
+bool snow_packard_next_frozen(const snow_grid *grid, snow_rect *part);
+/* Far more empty cells than anyone should look through. */
+bool snow_packard_is_sparse(const snow_grid *grid);
+
 /* cells.c */
 snow_status snow_packard_put(snow_grid *grid, const packard_region *region, const uint64_t *words);
+/* Freezes cells of a region in one engine that are frozen in another, when they froze there. */
+snow_status snow_packard_put_block(const packard *from, const packard *to, const packard_region *block,
+                                   const uint64_t *words);
 /* Counts the frozen cells anew; the interior of the plane follows them. */
 snow_status snow_packard_count(snow_grid *grid);
 /* After cells were put: counts them, and chooses the engine. */
@@ -184,9 +203,10 @@ bool snow_packard_is_at_rim(const snow_grid *grid);
 /* engine_quadtree.c */
 /* What the quadtree has done so far: nodes made and results found. */
 uint64_t snow_packard_tree_work(const void *cells);
-/* What a saved grid holds of a crystal in the quadtree. */
-void snow_packard_tree_save(void *cells, snow_sink *sink);
-snow_status snow_packard_tree_load(snow_grid *grid, snow_source *source, void **cells);
+/* What a saved grid holds of a crystal in the quadtree. Where that does not stand about the origin, it says where. */
+bool snow_packard_tree_is_shifted(const void *cells);
+void snow_packard_tree_save(const void *cells, snow_sink *sink);
+snow_status snow_packard_tree_load(snow_grid *grid, snow_source *source, bool shifted, void **cells);
 
 /* choose.c */
 /* Chooses the engine for the next steps, of which at most *steps are to be

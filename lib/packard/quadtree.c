@@ -129,22 +129,13 @@ void snow_quadtree_restore(snow_quadtree *tree)
     tree->now = tree->kept;
 }
 
-/* Which of the nine lines round a leaf's middle a run of lines has; bit b: line b. */
+/* Which of the nine lines round a leaf's middle a run of lines has, at least one; bit b: line b. */
 static uint32_t common_lines(int64_t first, int64_t last, int64_t middle)
 {
     int64_t from = middle - quadtree_half_side(QUADTREE_LEAF_LEVEL);
-    uint32_t lines = 0;
-    for (int i = 0; i < QUADTREE_LEAF_SIDE; i++)
-        lines |= (uint32_t)(from + i >= first && from + i <= last) << i;
-    return lines;
-}
-
-static int lowest(uint32_t bits)
-{
-    int bit = 0;
-    while ((bits >> bit & 1) == 0)
-        bit++;
-    return bit;
+    int64_t end = last - from < QUADTREE_LEAF_SIDE ? last - from + 1 : QUADTREE_LEAF_SIDE;
+    int64_t begin = first > from ? first - from : 0;
+    return (UINT32_C(1) << end) - (UINT32_C(1) << begin);
 }
 
 /* What a leaf and a region have in common, not empty. */
@@ -163,7 +154,7 @@ static overlap overlap_of(const region *of, quadtree_place middle)
         .rows = common_lines(of->first_r, of->last_r, middle.r),
         .row = middle.r - half - of->first_r,
     };
-    common.first_column = lowest(common.columns);
+    common.first_column = __builtin_ctz(common.columns);
     common.bit = (uint64_t)(middle.q - half + common.first_column - of->first_q);
     return common;
 }
@@ -184,18 +175,25 @@ static quadtree_leaf read_leaf(quadtree_leaf leaf, const region *from, const uin
     return leaf;
 }
 
-static void write_leaf(const quadtree_leaf *leaf, const region *to, uint64_t *bits, quadtree_place middle)
+static void write_cells(uint32_t row, const overlap *common, uint64_t *word)
 {
-    overlap common = overlap_of(to, middle);
-    unsigned shift = common.bit % 64;
+    unsigned shift = common->bit % 64;
+    uint64_t cells = (row & common->columns) >> common->first_column;
+    word[0] |= cells << shift;
+    if (shift > 64 - QUADTREE_LEAF_SIDE && cells >> (64 - shift) != 0)
+        word[1] |= cells >> (64 - shift);
+}
+
+static void write_leaf(const snow_quadtree *tree, quadtree_ref ref, const region *to, uint64_t *bits,
+                       quadtree_place middle)
+{
+    const overlap common = overlap_of(to, middle);
+    const quadtree_leaf *leaf = &quadtree_at(tree, quadtree_index(ref))->leaf;
     for (int y = 0; y < QUADTREE_LEAF_SIDE; y++) {
         if ((common.rows >> y & 1) == 0)
             continue;
-        uint64_t *word = bits + (size_t)(common.row + y) * to->stride + common.bit / 64;
-        uint64_t cells = (leaf->row[y] & common.columns) >> common.first_column;
-        word[0] |= cells << shift;
-        if (shift > 64 - QUADTREE_LEAF_SIDE && cells >> (64 - shift) != 0)
-            word[1] |= cells >> (64 - shift);
+        write_cells(snow_quadtree_leaf_row(leaf, quadtree_turn_of(ref), y), &common,
+                    bits + (size_t)(common.row + y) * to->stride + common.bit / 64);
     }
 }
 
@@ -263,8 +261,7 @@ static void copy_region(const snow_quadtree *tree, int level, quadtree_ref ref, 
     if (ref == tree->empty[level])
         return;
     if (level == QUADTREE_LEAF_LEVEL) {
-        quadtree_leaf leaf = snow_quadtree_cells(tree, ref);
-        write_leaf(&leaf, to, bits, middle);
+        write_leaf(tree, ref, to, bits, middle);
         return;
     }
     quadtree_ref child[4];
@@ -296,6 +293,14 @@ bool snow_quadtree_find_measures(snow_quadtree *tree)
     tree->now.measures = measures;
     tree->now.measured = true;
     return true;
+}
+
+void snow_quadtree_set_centre(snow_quadtree *tree, int64_t q, int64_t r)
+{
+    if (q == tree->centre.q && r == tree->centre.r)
+        return;
+    tree->centre = (quadtree_place){q, r};
+    tree->now.measured = tree->kept.measured = false;
 }
 
 snow_status snow_quadtree_measure(snow_quadtree *tree, quadtree_measures *measures)

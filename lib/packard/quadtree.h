@@ -27,7 +27,7 @@ typedef struct quadtree_measures {
     /* Least and greatest q, r and q + r of the frozen cells: the bounding
        hexagon. All 0 when nothing is frozen. */
     int64_t least[3], greatest[3];
-    quadtree_count tip_square; /* greatest squared distance from the origin */
+    quadtree_count tip_square; /* greatest squared distance from the centre */
 } quadtree_measures;
 
 /* Greatest |q| and |r|: cells beyond are refused with SNOW_ERROR_TOO_LARGE, and
@@ -43,6 +43,9 @@ typedef struct quadtree_measures {
 snow_status snow_quadtree_create(snow_heap *heap, uint8_t rule, snow_quadtree **tree);
 void snow_quadtree_destroy(snow_quadtree *tree); /* NULL: nothing */
 
+/* From here on distances are measured from this cell, less than 2^60 from the axes; at first from the origin. */
+void snow_quadtree_set_centre(snow_quadtree *tree, int64_t q, int64_t r);
+
 /* Makes the cells of a rectangle what the bits say; stride in words. */
 snow_status snow_quadtree_put(snow_quadtree *tree, int64_t q, int64_t r, int64_t width, int64_t height,
                               const uint64_t *bits, size_t stride);
@@ -50,6 +53,10 @@ snow_status snow_quadtree_put(snow_quadtree *tree, int64_t q, int64_t r, int64_t
 /* Writes the cells of a rectangle within the reach, and zeros into the rest of each row's last word. */
 void snow_quadtree_copy(const snow_quadtree *tree, int64_t q, int64_t r, int64_t width, int64_t height,
                         uint64_t *bits, size_t stride);
+
+/* Moves on to the first of the squares of 64 by 64 cells, from multiples of 64 on, that may hold frozen cells, row by
+   row of squares, and is not before the one with this cell. False: there is none. */
+bool snow_quadtree_next(const snow_quadtree *tree, int64_t *q, int64_t *r);
 
 bool snow_quadtree_get(const snow_quadtree *tree, int64_t q, int64_t r);
 

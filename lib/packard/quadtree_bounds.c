@@ -1,6 +1,5 @@
+#include "base/sort.h"
 #include "packard/quadtree_nodes.h"
-
-#include <stdlib.h>
 
 enum { SIDE = QUADTREE_LEAF_SIDE, HALF = SIDE / 2 };
 
@@ -60,7 +59,7 @@ static bool descend(snow_quadtree *tree, int level, direction along, size_t *cou
             *least = deficit + cost[along][j] < *least ? deficit + cost[along][j] : *least;
         }
     }
-    qsort(parts, part_count, sizeof parts[0], by_value);
+    snow_sort(parts, part_count, sizeof parts[0], by_value);
     *count = 0;
     for (size_t i = 0; i < part_count; i++) {
         unsigned deficit = (unsigned)(parts[i] >> 32) - *least;

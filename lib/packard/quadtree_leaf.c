@@ -53,6 +53,21 @@ quadtree_leaf snow_quadtree_turned_leaf(const quadtree_leaf *leaf, unsigned turn
     return turn & QUADTREE_REFLECT ? reflected(&turned) : turned;
 }
 
+static uint32_t column(const quadtree_leaf *leaf, int x)
+{
+    uint32_t cells = 0;
+    for (int y = 0; y < SIDE; y++)
+        cells |= (uint32_t)(leaf->row[y] >> x & 1) << y;
+    return cells;
+}
+
+uint32_t snow_quadtree_leaf_row(const quadtree_leaf *leaf, unsigned turn, int y)
+{
+    int line = turn & QUADTREE_REFLECT ? LAST - y : y;
+    uint32_t cells = turn & QUADTREE_SWAP ? column(leaf, line) : leaf->row[line];
+    return turn & QUADTREE_REFLECT ? reversed(cells) : cells;
+}
+
 quadtree_leaf snow_quadtree_cells(const snow_quadtree *tree, quadtree_ref ref)
 {
     return snow_quadtree_turned_leaf(&quadtree_at(tree, quadtree_index(ref))->leaf, quadtree_turn_of(ref));

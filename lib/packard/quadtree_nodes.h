@@ -86,6 +86,11 @@ typedef struct quadtree_live {
     int32_t level;
 } quadtree_live;
 
+/* Where a pattern stands: its middle cell. */
+typedef struct quadtree_place {
+    int64_t q, r;
+} quadtree_place;
+
 typedef struct quadtree_crystal {
     quadtree_ref root; /* its middle is the origin; nothing is frozen on its rim */
     int level;
@@ -109,6 +114,7 @@ struct snow_quadtree {
 
     quadtree_ref empty[QUADTREE_LEVELS];
     quadtree_crystal now, kept;
+    quadtree_place centre; /* distances are measured from it */
     int exponent;        /* results of high levels are 2^exponent steps ahead */
     int collections;     /* since the call began */
     uint64_t work;       /* nodes and leaves made, results found, and the like */
@@ -174,11 +180,6 @@ static inline int64_t quadtree_half_side(int level)
     return INT64_C(1) << (level - 1);
 }
 
-/* Where a pattern stands: its middle cell. */
-typedef struct quadtree_place {
-    int64_t q, r;
-} quadtree_place;
-
 static inline quadtree_place quadtree_child_place(quadtree_place middle, int level, int i)
 {
     int64_t shift = quadtree_half_side(level - 1);
@@ -231,6 +232,8 @@ void snow_quadtree_find_tip(const snow_quadtree *tree, quadtree_measures *measur
 /* A leaf's cells, turned as the pattern is. */
 quadtree_leaf snow_quadtree_cells(const snow_quadtree *tree, quadtree_ref ref);
 quadtree_leaf snow_quadtree_turned_leaf(const quadtree_leaf *leaf, unsigned turn);
+/* A row of it. */
+uint32_t snow_quadtree_leaf_row(const quadtree_leaf *leaf, unsigned turn, int y);
 
 quadtree_base snow_quadtree_base_cells(const snow_quadtree *tree, uint32_t index);
 /* The leaf whose first cell is (x, y). */

@@ -12,9 +12,11 @@ static quadtree_count square(uint64_t x)
                         (quadtree_count){upper * upper, lower * lower});
 }
 
-/* q² + qr + r², exactly: half the sum of the squares of q, r and q + r. */
-static quadtree_count distance_square(int64_t q, int64_t r)
+/* q² + qr + r², as seen from the centre, exactly: half the sum of the squares of q, r and q + r. */
+static quadtree_count distance_square(const snow_quadtree *tree, int64_t q, int64_t r)
 {
+    q -= tree->centre.q;
+    r -= tree->centre.r;
     uint64_t a = magnitude(q), b = magnitude(r);
     uint64_t sum = (q < 0) == (r < 0) ? a + b : a > b ? a - b : b - a;
     quadtree_count twice = quadtree_sum(quadtree_sum(square(a), square(b)), square(sum));
@@ -35,28 +37,29 @@ static void line_ends(int64_t middle, int level, int64_t least, int64_t greatest
     ends[1] = (middle + half < greatest - 1 ? middle + half : greatest - 1) + 1;
 }
 
-/* No cell of the node is farther out than this: the distance of a corner, for it grows outwards on each line. */
-static quadtree_count farthest_corner(quadtree_place middle, int level, const quadtree_measures *measures)
+/* No cell of the node is farther out than this: the distance of a corner, for on each line it falls and then grows. */
+static quadtree_count farthest_corner(const snow_quadtree *tree, quadtree_place middle, int level, const quadtree_measures *measures)
 {
     int64_t q[2], r[2];
     line_ends(middle.q, level, measures->least[0], measures->greatest[0], q);
     line_ends(middle.r, level, measures->least[1], measures->greatest[1], r);
     quadtree_count farthest = {0, 0};
     for (int i = 0; i < 4; i++) {
-        quadtree_count corner = distance_square(q[i % 2], r[i / 2]);
+        quadtree_count corner = distance_square(tree, q[i % 2], r[i / 2]);
         farthest = is_greater(corner, farthest) ? corner : farthest;
     }
     return farthest;
 }
 
-static void search_leaf(const quadtree_leaf *leaf, quadtree_place middle, quadtree_count *tip)
+static void search_leaf(const snow_quadtree *tree, const quadtree_leaf *leaf, quadtree_place middle,
+                        quadtree_count *tip)
 {
     int64_t half = quadtree_half_side(QUADTREE_LEAF_LEVEL);
     for (int y = 0; y < QUADTREE_LEAF_SIDE; y++) {
         for (int x = 0; x < QUADTREE_LEAF_SIDE; x++) {
             if ((leaf->row[y] >> x & 1) == 0)
                 continue;
-            quadtree_count square_here = distance_square(middle.q + x - half, middle.r + y - half);
+            quadtree_count square_here = distance_square(tree, middle.q + x - half, middle.r + y - half);
             *tip = is_greater(square_here, *tip) ? square_here : *tip;
         }
     }
@@ -68,7 +71,7 @@ static void search(const snow_quadtree *tree, int level, quadtree_ref ref, quadt
 {
     if (level == QUADTREE_LEAF_LEVEL) {
         quadtree_leaf leaf = snow_quadtree_cells(tree, ref);
-        search_leaf(&leaf, middle, &measures->tip_square);
+        search_leaf(tree, &leaf, middle, &measures->tip_square);
         return;
     }
     quadtree_ref child[4];
@@ -77,7 +80,7 @@ static void search(const snow_quadtree *tree, int level, quadtree_ref ref, quadt
     for (int i = 0; i < 4; i++) {
         bool empty = child[i] == tree->empty[level - 1];
         quadtree_place at = quadtree_child_place(middle, level, i);
-        farthest[i] = empty ? (quadtree_count){0, 0} : farthest_corner(at, level - 1, measures);
+        farthest[i] = empty ? (quadtree_count){0, 0} : farthest_corner(tree, at, level - 1, measures);
     }
     for (int turn = 0; turn < 4; turn++) {
         int next = 0;

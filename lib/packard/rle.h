@@ -4,6 +4,15 @@
 
 #include "packard/model.h"
 
+/* What is farther out, or more than that, is neither written nor read. */
+#define PACKARD_RLE_REACH (INT64_C(1) << 30)
+#define PACKARD_RLE_CELLS (UINT64_C(1) << 32)
+
+static inline bool packard_rle_reaches(int64_t coordinate)
+{
+    return coordinate >= -PACKARD_RLE_REACH && coordinate <= PACKARD_RLE_REACH;
+}
+
 /* Where a cell stands in a pattern. Its neighbours there are those in its row
    and column and those to its upper left and lower right. Drawn as hexagons, a
    pattern looks like the crystal; but where opposite sides of a rhombus are
@@ -20,12 +29,7 @@ static inline packard_axes packard_axes_of(const snow_packard_params *params)
     return (packard_axes){rhombic, rhombic ? params->height % 2 - 1 : 0};
 }
 
-static inline int64_t packard_x_of(const packard_axes *axes, int64_t q, int64_t r)
-{
-    return axes->mirrored ? q : q + r;
-}
-
-/* And, for the same map backwards, r of a row y. */
+/* y of a row r, and r of a row y. */
 static inline int64_t packard_y_of(const packard_axes *axes, int64_t r)
 {
     return axes->mirrored ? axes->shift - r : r;

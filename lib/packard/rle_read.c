@@ -8,9 +8,6 @@
 
 enum { RULE_LENGTH = 64, CHUNK = 64 /* words of cells that are put at a time */ };
 
-static const int64_t greatest_coordinate = INT64_C(1) << 30;
-static const uint64_t most_cells = UINT64_C(1) << 32;
-
 typedef struct rle_reader {
     const char *next;
     const char *end;
@@ -157,18 +154,13 @@ static snow_status read_header(rle_reader *reader)
     return read_rule(reader);
 }
 
-static bool is_near(int64_t coordinate)
-{
-    return coordinate >= -greatest_coordinate && coordinate <= greatest_coordinate;
-}
-
 /* Freezes a run of cells of a row of the pattern. */
 static snow_status put_run(snow_grid *grid, const packard_axes *axes, int64_t x, int64_t y, int64_t count)
 {
     uint64_t words[CHUNK];
     int64_t q = packard_q_of(axes, x, y);
     int64_t r = packard_y_of(axes, y);
-    if (!is_near(x) || !is_near(y) || !is_near(x + count))
+    if (!packard_rle_reaches(x) || !packard_rle_reaches(y) || !packard_rle_reaches(x + count))
         return SNOW_ERROR_TOO_LARGE;
     if (!packard_has_cell(grid, q, r) || !packard_has_cell(grid, q + count - 1, r))
         return SNOW_ERROR_PACKARD_SEED;
@@ -192,11 +184,11 @@ static snow_status read_cells(rle_reader *reader, snow_grid *grid)
     snow_status status = SNOW_OK;
     while (status == SNOW_OK) {
         int64_t count = 1;
-        if (is_digit(reader) && read_magnitude(reader, &count) && (count < 1 || count > 2 * greatest_coordinate))
+        if (is_digit(reader) && read_magnitude(reader, &count) && (count < 1 || count > 2 * PACKARD_RLE_REACH))
             return count < 1 ? SNOW_ERROR_PACKARD_RLE : SNOW_ERROR_TOO_LARGE;
         if (reader->next == reader->end)
             return SNOW_ERROR_TRUNCATED;
-        if (!is_near(x) || !is_near(y))
+        if (!packard_rle_reaches(x) || !packard_rle_reaches(y))
             return SNOW_ERROR_TOO_LARGE;
         char c = *reader->next++;
         switch (c) {
@@ -210,7 +202,7 @@ static snow_status read_cells(rle_reader *reader, snow_grid *grid)
         case 'o':
         case 'A':
             cells += (uint64_t)count;
-            status = cells <= most_cells ? put_run(grid, &axes, x, y, count) : SNOW_ERROR_TOO_LARGE;
+            status = cells <= PACKARD_RLE_CELLS ? put_run(grid, &axes, x, y, count) : SNOW_ERROR_TOO_LARGE;
             x += count;
             break;
         case ' ':
@@ -230,7 +222,7 @@ static snow_status load(rle_reader *reader, const snow_options *options, snow_gr
     snow_status status = read_comments(reader);
     if (status == SNOW_OK)
         status = read_header(reader);
-    if (status == SNOW_OK && (!is_near(reader->x) || !is_near(reader->y) || reader->steps > INT64_C(1) << 62))
+    if (status == SNOW_OK && (!packard_rle_reaches(reader->x) || !packard_rle_reaches(reader->y) || reader->steps > INT64_C(1) << 62))
         status = SNOW_ERROR_TOO_LARGE;
     snow_grid *grid = NULL;
     if (status == SNOW_OK)

@@ -89,14 +89,21 @@ static void put_cell(rle_writer *writer, bool alive)
     writer->blank++;
 }
 
-/* `lead` columns of the pattern come before the row's first cell. */
-static void put_row(rle_writer *writer, const packard *model, const packard_region *row, int64_t lead)
+static void put_blank(rle_writer *writer, int64_t count)
 {
-    uint64_t words[CHUNK];
-    writer->blank = (uint64_t)lead;
-    for (int64_t x = 0; x < row->width; x += CHUNK * PACKARD_WORD) {
-        int64_t left = row->width - x;
-        packard_region part = {row->q + x, row->r, left < CHUNK * PACKARD_WORD ? left : CHUNK * PACKARD_WORD, 1};
+    if (count > 0)
+        end_run(writer);
+    writer->blank += (uint64_t)count;
+}
+
+/* Row r; its cells up to q stand left of the pattern's box, and none of them is frozen. */
+static void put_row(rle_writer *writer, const snow_grid *grid, int64_t q, int64_t r)
+{
+    const packard *model = packard_of(grid);
+    packard_region part;
+    for (; snow_packard_next_in_row(grid, q, r, CHUNK * PACKARD_WORD, &part); q = part.q + part.width) {
+        uint64_t words[CHUNK];
+        put_blank(writer, part.q - q);
         model->engine->copy(model->cells, &part, words);
         for (int64_t i = 0; i < part.width; i++)
             put_cell(writer, (words[i / PACKARD_WORD] >> (i % PACKARD_WORD) & 1) != 0);
@@ -104,6 +111,14 @@ static void put_row(rle_writer *writer, const packard *model, const packard_regi
     end_run(writer);
     writer->blank = 0;
     writer->ends++;
+}
+
+/* How many rows from r on have nothing that may be frozen. */
+static int64_t empty_rows(const snow_grid *grid, int64_t r)
+{
+    packard_region block;
+    const packard_region bounds = snow_packard_bounds(grid);
+    return snow_packard_block_from(grid, bounds.q, r, &block) && block.r > r ? block.r - r : 0;
 }
 
 /* The pattern's box: its least x and y, and its extents. */
@@ -150,17 +165,12 @@ static void write_pattern(rle_writer *writer, const snow_grid *grid)
     const packard *model = packard_of(grid);
     const packard_axes axes = packard_axes_of(&model->params);
     const packard_region box = box_of(grid, &axes);
-    const packard_region bounds = snow_packard_bounds(grid);
     put_header(writer, grid, &box);
     for (int64_t y = box.r; y < box.r + box.height; y++) {
-        packard_region row = {bounds.q, packard_y_of(&axes, y), bounds.width, 1};
-        int64_t lead = packard_x_of(&axes, row.q, row.r) - box.q;
-        if (lead < 0) { /* cells so far to the left are not frozen */
-            row.q -= lead;
-            row.width += lead;
-            lead = 0;
-        }
-        put_row(writer, model, &row, lead);
+        int64_t skipped = axes.mirrored ? 0 : empty_rows(grid, y); /* worlds with sides are not that large */
+        y += skipped;
+        writer->ends += (uint64_t)skipped;
+        put_row(writer, grid, packard_q_of(&axes, box.q, y), packard_y_of(&axes, y));
     }
     put_text(writer, "!\n");
     flush(writer);
@@ -169,9 +179,13 @@ static void write_pattern(rle_writer *writer, const snow_grid *grid)
 static snow_status check(const snow_grid *grid)
 {
     snow_status status = packard_check(grid);
-    if (status == SNOW_OK && grid->domain.too_large)
-        status = SNOW_ERROR_TOO_LARGE;
-    return status;
+    if (status != SNOW_OK)
+        return status;
+    const packard_axes axes = packard_axes_of(&packard_of(grid)->params);
+    const packard_region box = box_of(grid, &axes);
+    bool fits = packard_rle_reaches(box.q) && packard_rle_reaches(box.q + box.width) && packard_rle_reaches(box.r) &&
+                packard_rle_reaches(box.r + box.height) && snow_census_frozen(&grid->census) <= PACKARD_RLE_CELLS;
+    return fits ? SNOW_OK : SNOW_ERROR_TOO_LARGE;
 }
 
 snow_status snow_packard_save_rle_to(const snow_grid *grid, snow_writer write, void *context)

@@ -1,14 +1,25 @@
-/* What a saved grid of Packard's model holds: the scene, the zones, then the
-   frozen cells: of the quadtree its different squares, otherwise rows of bits. */
+/* What a saved grid of Packard's model holds: the scene, the zones, then the frozen cells: of the quadtree its
+   different squares, of other engines rows of bits, or, where these would be mostly empty, blocks of them. */
 #include "base/hexagon.h"
 #include "packard/model.h"
 #include "packard/quadtree.h"
 
 enum { CHUNK = 64 /* words of a row that are read at a time */ };
 
-static bool is_tree(const packard *model)
+typedef enum saved_form {
+    SAVED_ROWS = 0,
+    SAVED_TREE = 1,
+    SAVED_BLOCKS = 2,
+    SAVED_SHIFTED_TREE = 3,
+    SAVED_FORMS
+} saved_form;
+
+static saved_form form_of(const snow_grid *grid)
 {
-    return model->engine == &snow_packard_quadtree;
+    const packard *model = packard_of(grid);
+    if (model->engine == &snow_packard_quadtree)
+        return snow_packard_tree_is_shifted(model->cells) ? SAVED_SHIFTED_TREE : SAVED_TREE;
+    return snow_packard_is_sparse(grid) ? SAVED_BLOCKS : SAVED_ROWS;
 }
 
 static void save_scene(const snow_grid *grid, snow_sink *sink)
@@ -23,7 +34,7 @@ static void save_scene(const snow_grid *grid, snow_sink *sink)
     snow_sink_u32(sink, (uint32_t)params->engine);
     snow_sink_u8(sink, params->record_freeze_steps != 0);
     snow_sink_u8(sink, grid->census.still);
-    snow_sink_u8(sink, is_tree(model));
+    snow_sink_u8(sink, (uint8_t)form_of(grid));
     snow_sink_u64(sink, (uint64_t)grid->census.steps);
 }
 
@@ -87,6 +98,46 @@ static void save_rows(const snow_grid *grid, snow_sink *sink)
         save_row(packard_of(grid), &(packard_region){bounds.q, bounds.r + y, bounds.width, 1}, sink);
 }
 
+static bool is_empty(const uint64_t *words, int64_t count)
+{
+    for (int64_t i = 0; i < count; i++)
+        if (words[i] != 0)
+            return false;
+    return true;
+}
+
+/* Each block with its place and size, the words of its rows, and, where they are recorded, the freeze steps; at the
+   end one without cells. */
+static void save_blocks(const snow_grid *grid, snow_sink *sink)
+{
+    const packard *model = packard_of(grid);
+    packard_region block;
+    for (bool more = snow_packard_first_block(grid, &block); more; more = snow_packard_next_block(grid, &block)) {
+        uint64_t words[PACKARD_BLOCK];
+        model->engine->copy(model->cells, &block, words);
+        if (is_empty(words, block.height))
+            continue;
+        snow_sink_u8(sink, (uint8_t)block.width);
+        snow_sink_u8(sink, (uint8_t)block.height);
+        snow_sink_u64(sink, (uint64_t)block.q);
+        snow_sink_u64(sink, (uint64_t)block.r);
+        for (int64_t y = 0; y < block.height; y++)
+            save_row(model, &(packard_region){block.q, block.r + y, block.width, 1}, sink);
+    }
+    snow_sink_u8(sink, 0);
+}
+
+static void save_cells(const snow_grid *grid, snow_sink *sink)
+{
+    switch (form_of(grid)) {
+    case SAVED_ROWS: save_rows(grid, sink); break;
+    case SAVED_TREE:
+    case SAVED_SHIFTED_TREE: snow_packard_tree_save(packard_of(grid)->cells, sink); break;
+    case SAVED_BLOCKS: save_blocks(grid, sink); break;
+    case SAVED_FORMS: break;
+    }
+}
+
 void snow_packard_save(const snow_grid *grid, snow_sink *sink)
 {
     const packard *model = packard_of(grid);
@@ -94,16 +145,13 @@ void snow_packard_save(const snow_grid *grid, snow_sink *sink)
     snow_sink_u32(sink, (uint32_t)model->zone_count);
     for (size_t i = 0; i < model->zone_count; i++)
         save_zone(&model->zones[i], sink);
-    if (is_tree(model))
-        snow_packard_tree_save(model->cells, sink);
-    else
-        save_rows(grid, sink);
+    save_cells(grid, sink);
 }
 
 typedef struct saved_scene {
     snow_packard_params params;
     bool still;
-    bool tree;
+    saved_form form;
     int64_t steps;
 } saved_scene;
 
@@ -119,23 +167,24 @@ static snow_status load_scene(snow_source *source, saved_scene *scene)
     params->engine = (snow_packard_engine)snow_source_u32(source);
     params->record_freeze_steps = snow_source_u8(source);
     uint8_t still = snow_source_u8(source);
-    uint8_t tree = snow_source_u8(source);
+    uint8_t form = snow_source_u8(source);
     uint64_t steps = snow_source_u64(source);
     if (source->truncated)
         return SNOW_ERROR_TRUNCATED;
     scene->still = still == 1;
-    scene->tree = tree == 1;
+    scene->form = (saved_form)form;
     scene->steps = (int64_t)steps;
-    bool sound = still <= 1 && tree <= 1 && steps <= UINT64_C(1) << 62 &&
+    bool sound = still <= 1 && form < SAVED_FORMS && steps <= UINT64_C(1) << 62 &&
                  snow_packard_params_check(params) == SNOW_OK &&
-                 (tree == 0 || (params->domain == SNOW_PACKARD_PLANE && !params->record_freeze_steps &&
+                 ((form != SAVED_TREE && form != SAVED_SHIFTED_TREE) ||
+                  (params->domain == SNOW_PACKARD_PLANE && !params->record_freeze_steps &&
                                 (params->engine == SNOW_PACKARD_ENGINE_AUTO ||
                                  params->engine == SNOW_PACKARD_ENGINE_QUADTREE)));
     return sound ? SNOW_OK : SNOW_ERROR_DAMAGED;
 }
 
 /* The zone's cells are compared with the data before anything is allocated for them. */
-static snow_status load_cells(snow_source *source, snow_heap *heap, packard_zone *zone)
+static snow_status load_zone_cells(snow_source *source, snow_heap *heap, packard_zone *zone)
 {
     uint64_t words = (uint64_t)packard_words((uint64_t)zone->rect.width) * (uint64_t)zone->rect.height;
     if (words > snow_source_left(source) / sizeof(uint64_t))
@@ -180,7 +229,7 @@ static snow_status load_zone(snow_source *source, snow_grid *grid)
     copy.half_cells = half_cells;
     copy.inner = inner;
     copy.outer = outer;
-    snow_status status = has_cells != 0 ? load_cells(source, &grid->heap, &copy) : SNOW_OK;
+    snow_status status = has_cells != 0 ? load_zone_cells(source, &grid->heap, &copy) : SNOW_OK;
     if (status == SNOW_OK)
         status = snow_packard_zone_keep(grid, &copy);
     if (status != SNOW_OK)
@@ -317,18 +366,65 @@ static snow_status load_rows(snow_source *source, snow_grid *grid)
     return status == SNOW_OK && source->truncated ? SNOW_ERROR_TRUNCATED : status;
 }
 
-static snow_status load_tree(snow_source *source, snow_grid *grid)
+static snow_status load_block(snow_source *source, snow_grid *grid, int64_t width)
+{
+    uint8_t height = snow_source_u8(source);
+    packard_region block = {.width = width, .height = height};
+    block.q = (int64_t)snow_source_u64(source);
+    block.r = (int64_t)snow_source_u64(source);
+    if (source->truncated)
+        return SNOW_ERROR_TRUNCATED;
+    if (width > PACKARD_BLOCK || height > PACKARD_BLOCK || !is_sound_place(block.q, (uint64_t)width) ||
+        !is_sound_place(block.r, height))
+        return SNOW_ERROR_DAMAGED;
+    snow_status status = SNOW_OK;
+    for (int64_t y = 0; y < height && status == SNOW_OK && !source->truncated; y++)
+        status = load_row(source, grid, &(packard_region){block.q, block.r + y, width, 1});
+    return source->truncated ? SNOW_ERROR_TRUNCATED : status;
+}
+
+/* Blocks can stand anywhere on the plane, and the reference fills the space between them. */
+static snow_status load_blocks(snow_source *source, snow_grid *grid)
+{
+    const packard *model = packard_of(grid);
+    snow_status status = SNOW_OK;
+    if (model->engine == &snow_packard_reference && packard_is_plane(model))
+        status = use_tiles(grid);
+    while (status == SNOW_OK) {
+        uint8_t width = snow_source_u8(source);
+        if (source->truncated)
+            return SNOW_ERROR_TRUNCATED;
+        if (width == 0)
+            return SNOW_OK;
+        status = load_block(source, grid, width);
+    }
+    return status;
+}
+
+static snow_status load_tree(snow_source *source, snow_grid *grid, bool shifted)
 {
     void *cells;
-    snow_status status = snow_packard_tree_load(grid, source, &cells);
+    snow_status status = snow_packard_tree_load(grid, source, shifted, &cells);
     if (status == SNOW_OK)
         use_engine(grid, &snow_packard_quadtree, cells);
     return status;
 }
 
+static snow_status load_cells(snow_source *source, saved_form form, snow_grid *grid)
+{
+    switch (form) {
+    case SAVED_ROWS: return load_rows(source, grid);
+    case SAVED_TREE:
+    case SAVED_SHIFTED_TREE: return load_tree(source, grid, form == SAVED_SHIFTED_TREE);
+    case SAVED_BLOCKS: return load_blocks(source, grid);
+    case SAVED_FORMS: break;
+    }
+    return SNOW_ERROR_DAMAGED;
+}
+
 static snow_status load_frozen(snow_source *source, const saved_scene *scene, snow_grid *grid)
 {
-    snow_status status = scene->tree ? load_tree(source, grid) : load_rows(source, grid);
+    snow_status status = load_cells(source, scene->form, grid);
     if (status == SNOW_OK)
         status = snow_packard_settle(grid);
     grid->census.still = scene->still;

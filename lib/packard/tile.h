@@ -4,6 +4,7 @@
 
 #include "packard/tiles.h"
 
+#include <stdatomic.h>
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -39,8 +40,7 @@ enum {
 
 enum {
     TILE_CHANGED = 1,  /* in the list of those that changed in the last step, or were set since */
-    TILE_ACTIVE = 2,   /* in the list of those that the next step visits */
-    TILE_UNCOUNTED = 4 /* in the list of those that changed since the last count */
+    TILE_UNCOUNTED = 2 /* in the list of those that changed since the last count */
 };
 
 /* How a freeze step is kept; steps later than can be kept are kept as the last that can. */
@@ -70,6 +70,8 @@ typedef struct snow_tile {
     uint16_t counted;                          /* frozen cells when it was last counted */
     uint8_t kind;
     uint8_t state;
+    _Atomic uint8_t active; /* 1: in the list of those that the next step visits; threads may want to put it there at
+                               the same time */
 } snow_tile;
 
 /* The cells around a tile; `northeast` and `southwest` are one cell each. */

@@ -76,14 +76,87 @@ static inline vector moved_down(vector here, vector after)
 /* The bits of a column that belong to a part of the rows. */
 enum { PART_BITS = SNOW_TILE_SIDE / PARTS };
 
+/* The first and last cells of the rows of a part, or the cells to the left and right of them: what row i of each strip
+   has there is taken out and put in as bits 0 and 63 of its words. */
+#if LANES == 4
+
+/* Row i's bit 0 stands in bit 0 of byte i, and its bit 63 in bit 7 of the byte before: so one shuffle of bytes, as all
+   bytes go round by i, brings both to their places. */
+typedef struct ends {
+    vector bytes;
+} ends;
+
+enum { FIRST_BIT = 1 };
+#define LAST_BIT (UINT64_C(1) << (SNOW_TILE_SIDE - 1))
+
+/* In each word byte j becomes what byte j + i was. */
+static inline vector go_round(vector words, int i)
+{
+    const uint64_t bytes = UINT64_C(0x0706050403020100);
+    uint64_t from = i == 0 ? bytes : bytes >> 8 * i | bytes << (64 - 8 * i);
+    const vector order = {from, from + UINT64_C(0x0808080808080808), from, from + UINT64_C(0x0808080808080808)};
+    return (vector)_mm256_shuffle_epi8((__m256i)words, (__m256i)order);
+}
+
+/* Bytes of ones where a column has its bit, strip by strip: in byte j for row j, or for row j + 1. */
+static inline vector bytes_of(uint64_t column, int part, uint64_t bit_of_byte)
+{
+    const vector strip = {0, UINT64_C(0x0101010101010101), UINT64_C(0x0202020202020202),
+                          UINT64_C(0x0303030303030303)};
+    __m256i bits = _mm256_shuffle_epi8((__m256i)spread(column >> PART_BITS * part), (__m256i)strip);
+    __m256i wanted = (__m256i)spread(bit_of_byte);
+    return (vector)_mm256_cmpeq_epi8(_mm256_and_si256(bits, wanted), wanted);
+}
+
+static inline ends ends_of(uint64_t left, uint64_t right, int part)
+{
+    const uint64_t row_j = UINT64_C(0x8040201008040201), row_after_j = UINT64_C(0x0180402010080402);
+    return (ends){(bytes_of(left, part, row_j) & UINT64_C(0x0101010101010101)) |
+                  (bytes_of(right, part, row_after_j) & UINT64_C(0x8080808080808080))};
+}
+
+static inline vector first_bit(const ends *part, int i)
+{
+    return go_round(part->bytes, i) & FIRST_BIT;
+}
+
+static inline vector last_bit(const ends *part, int i)
+{
+    return go_round(part->bytes, i) & LAST_BIT;
+}
+
+static inline void add_ends(ends *part, vector row, int i)
+{
+    part->bytes |= go_round(row & (LAST_BIT | FIRST_BIT), (8 - i) % 8);
+}
+
+static inline uint64_t column_of(vector signs, int part)
+{
+    return (uint64_t)(uint32_t)_mm256_movemask_epi8((__m256i)signs) << PART_BITS * part;
+}
+
+static inline uint64_t left_column(const ends *rows, int part)
+{
+    return column_of(rows->bytes << 7, part);
+}
+
+static inline uint64_t right_column(const ends *rows, int part)
+{
+    return column_of(go_round(rows->bytes, 7), part);
+}
+
+#else
+
 /* Strip by strip the eight bits of a column, in the lowest bits of the words. */
+typedef struct ends {
+    vector left, right;
+} ends;
+
 static inline vector strips_of(uint64_t column, int part)
 {
     column >>= PART_BITS * part;
 #if LANES == 8
     return spread(column) >> (vector){0, 8, 16, 24, 32, 40, 48, 56};
-#elif LANES == 4
-    return spread(column) >> (vector){0, 8, 16, 24};
 #else
     return (vector){column, column >> 8};
 #endif
@@ -94,15 +167,44 @@ static inline uint64_t column_of(vector strips, int part)
 {
 #if LANES == 8
     uint64_t column = (uint64_t)_mm_cvtsi128_si64(_mm512_cvtepi64_epi8((__m512i)strips));
-#elif LANES == 4
-    strips <<= (vector){0, 8, 16, 24};
-    __m128i half = _mm_or_si128(_mm256_castsi256_si128((__m256i)strips), _mm256_extracti128_si256((__m256i)strips, 1));
-    uint64_t column = (uint64_t)_mm_cvtsi128_si64(_mm_or_si128(half, _mm_unpackhi_epi64(half, half)));
 #else
     uint64_t column = strips[0] | strips[1] << 8;
 #endif
     return column << PART_BITS * part;
 }
+
+static inline ends ends_of(uint64_t left, uint64_t right, int part)
+{
+    return (ends){strips_of(left, part), strips_of(right, part)};
+}
+
+static inline vector first_bit(const ends *part, int i)
+{
+    return part->left >> i & 1;
+}
+
+static inline vector last_bit(const ends *part, int i)
+{
+    return part->right >> i << (SNOW_TILE_SIDE - 1);
+}
+
+static inline void add_ends(ends *part, vector row, int i)
+{
+    part->left |= (row & 1) << i;
+    part->right |= row >> (SNOW_TILE_SIDE - 1) << i;
+}
+
+static inline uint64_t left_column(const ends *rows, int part)
+{
+    return column_of(rows->left, part);
+}
+
+static inline uint64_t right_column(const ends *rows, int part)
+{
+    return column_of(rows->right, part);
+}
+
+#endif
 
 static inline bool any(vector bits)
 {
@@ -231,7 +333,7 @@ static inline __attribute__((always_inline)) vector apply(unsigned freezes, cons
    and the last vector of each part have above and below. */
 typedef struct view {
     const uint64_t *cells;
-    vector left_column[PARTS], right_column[PARTS];
+    ends beside[PARTS];
     vector above[PARTS], above_right[PARTS];
     vector below[PARTS], below_left[PARTS];
 } view;
@@ -243,22 +345,20 @@ static inline vector row_at(const view *tile, int part, int i)
 
 static inline vector left_of(const view *tile, int part, int i)
 {
-    return row_at(tile, part, i) << 1 | (tile->left_column[part] >> i & 1);
+    return row_at(tile, part, i) << 1 | first_bit(&tile->beside[part], i);
 }
 
 static inline vector right_of(const view *tile, int part, int i)
 {
-    return row_at(tile, part, i) >> 1 | tile->right_column[part] >> i << (SNOW_TILE_SIDE - 1);
+    return row_at(tile, part, i) >> 1 | last_bit(&tile->beside[part], i);
 }
 
 static inline __attribute__((always_inline)) void view_start(view *tile, const uint64_t *cells, const tile_halo *halo)
 {
     tile->cells = cells;
     UNROLL
-    for (int part = 0; part < PARTS; part++) {
-        tile->left_column[part] = strips_of(halo->left, part);
-        tile->right_column[part] = strips_of(halo->right, part);
-    }
+    for (int part = 0; part < PARTS; part++)
+        tile->beside[part] = ends_of(halo->left, halo->right, part);
     enum { LAST = TILE_STRIP_ROWS - 1 };
     vector row = spread(halo->top);
     vector right = spread(halo->top >> 1 | halo->northeast << (SNOW_TILE_SIDE - 1));
@@ -317,8 +417,7 @@ static inline __attribute__((always_inline)) bool advance_tile(snow_tile *tile, 
     tile_edges edges = {0};
     for (int part = 0; part < PARTS; part++) {
         window at = window_start(&before, part);
-        vector lefts = {0};
-        vector rights = {0};
+        ends after = ends_of(0, 0, part);
         UNROLL
         for (int i = 0; i < TILE_STRIP_ROWS; i++) {
             vector row = at.row;
@@ -327,11 +426,10 @@ static inline __attribute__((always_inline)) bool advance_tile(snow_tile *tile, 
             fresh |= freezing;
             row |= freezing;
             store(tile->cells + i * TILE_STRIPS + part * LANES, row);
-            lefts |= (row & 1) << i;
-            rights |= row >> (SNOW_TILE_SIDE - 1) << i;
+            add_ends(&after, row, i);
         }
-        edges.left |= column_of(lefts, part);
-        edges.right |= column_of(rights, part);
+        edges.left |= left_column(&after, part);
+        edges.right |= right_column(&after, part);
     }
     edges.top = tile->cells[tile_word(0)];
     edges.bottom = tile->cells[tile_word(SNOW_TILE_SIDE - 1)];
@@ -383,7 +481,8 @@ static inline __attribute__((always_inline)) size_t advance_list(const tile_pass
         fetch_ahead(list, count, i);
         bool changes =
             tile->extra != NULL ? snow_tile_advance_slowly(pass, tile) : advance_tile(tile, pass->phase, freezes);
-        tile->state = (uint8_t)((tile->state & ~TILE_ACTIVE) | (changes ? TILE_CHANGED : 0));
+        tile->state = (uint8_t)((tile->state & ~TILE_CHANGED) | (changes ? TILE_CHANGED : 0));
+        atomic_store_explicit(&tile->active, 0, memory_order_relaxed);
         list[changed] = tile;
         changed += changes;
     }

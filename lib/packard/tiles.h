@@ -85,12 +85,9 @@ void snow_tiles_row(const snow_tiles *tiles, int64_t q, int64_t r, size_t count,
    the part of a folded plane that is kept is taken from the row. */
 snow_status snow_tiles_put_row(snow_tiles *tiles, int64_t q, int64_t r, size_t count, const uint64_t *bits);
 
-/* Sees the 64 by 64 cells from (q, r) on: bit x of word y stands for the cell (q + x, r + y). */
-typedef snow_status (*snow_tile_visitor)(void *context, int64_t q, int64_t r, const uint64_t *rows);
-
-/* Shows all tiles with frozen cells, in no order; of a folded plane those that
-   are kept. Ends at the first answer that is not OK, and gives it. */
-snow_status snow_tiles_visit(const snow_tiles *tiles, snow_tile_visitor visitor, void *context);
+/* Moves on to the first cell of the first tile that is not before the one with
+   this cell, row by row of tiles; it may hold frozen cells. False: there is none. Not for a folded plane. */
+bool snow_tiles_next(const snow_tiles *tiles, int64_t *q, int64_t *r);
 
 /* The steps taken; where the count starts, for dates. */
 int64_t snow_tiles_steps(const snow_tiles *tiles);

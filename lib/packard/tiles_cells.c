@@ -212,21 +212,14 @@ snow_status snow_tiles_put_row(snow_tiles *tiles, int64_t q, int64_t r, size_t c
     return status;
 }
 
-snow_status snow_tiles_visit(const snow_tiles *tiles, snow_tile_visitor visitor, void *context)
+bool snow_tiles_next(const snow_tiles *tiles, int64_t *q, int64_t *r)
 {
-    snow_status status = SNOW_OK;
-    for (size_t i = 0; status == SNOW_OK && i < tiles->directory_size; i++) {
-        const snow_tile *tile = tiles->directory[i];
-        uint64_t rows[SNOW_TILE_SIDE];
-        uint64_t any = 0;
-        for (unsigned y = 0; tile != NULL && y < SNOW_TILE_SIDE; y++) {
-            rows[y] = tile->cells[tile_word(y)];
-            any |= rows[y];
-        }
-        if (any != 0)
-            status = visitor(context, (int64_t)tile->q * SNOW_TILE_SIDE, (int64_t)tile->r * SNOW_TILE_SIDE, rows);
-    }
-    return status;
+    tile_place place = snow_tiles_place(*q, *r);
+    if (!snow_tile_index_next(&tiles->index, &place.q, &place.r))
+        return false;
+    *q = (int64_t)place.q * SNOW_TILE_SIDE;
+    *r = (int64_t)place.r * SNOW_TILE_SIDE;
+    return true;
 }
 
 int64_t snow_tiles_steps(const snow_tiles *tiles)

@@ -289,7 +289,8 @@ snow_status snow_tiles_set_mask(snow_tiles *tiles, snow_tile_mask mask, const vo
 
 static snow_tile *new_tile(snow_tiles *tiles, int32_t q, int32_t r)
 {
-    if (!widen_directory(tiles) || !widen_slab(tiles))
+    if (!widen_directory(tiles) || !widen_slab(tiles) ||
+        (!tiles->plan.folded && !snow_tile_index_add(&tiles->index, q, r)))
         return NULL;
     snow_tile *tile = slab_tile(tiles->slab, tiles->slab_used);
     *tile = (snow_tile){.q = q, .r = r, .kind = kind_of(tiles, q, r)};
@@ -388,12 +389,12 @@ snow_status snow_tiles_create(snow_tiles **tiles, snow_heap *heap, const snow_ti
     };
     made->directory = snow_heap_get(heap, DIRECTORY_START, sizeof(snow_tile *));
     made->nothing = snow_heap_get(heap, 1, sizeof *made->nothing);
-    if (made->directory == NULL || made->nothing == NULL) {
+    if (made->directory == NULL || made->nothing == NULL || !snow_tile_index_start(&made->index, heap)) {
         snow_status refusal = heap->refusal;
         snow_tiles_destroy(made);
         return refusal;
     }
-    made->nothing->state = TILE_ACTIVE; /* never to be put into the list */
+    made->nothing->active = 1; /* never to be put into the list */
     *tiles = made;
     return SNOW_OK;
 }
@@ -414,6 +415,7 @@ void snow_tiles_destroy(snow_tiles *tiles)
     snow_heap_put(heap, tiles->changed.tile);
     snow_heap_put(heap, tiles->active.tile);
     snow_heap_put(heap, tiles->uncounted.tile);
+    snow_tile_index_end(&tiles->index);
     snow_heap_put(heap, tiles->directory);
     snow_heap_put(heap, tiles->nothing);
     snow_heap_put(heap, tiles);

@@ -3,6 +3,7 @@
 #define SNOW_PACKARD_TILES_PLANE_H
 
 #include "packard/tile_kernel.h"
+#include "packard/tiles_index.h"
 
 typedef struct tile_list {
     snow_tile **tile;
@@ -26,6 +27,7 @@ struct snow_tiles {
     snow_tile **directory; /* open addressing by tile coordinates */
     size_t directory_size; /* a power of two */
     size_t tiles;
+    tile_index index; /* of an unfolded plane */
     tile_slab *slab; /* the newest */
     size_t slab_used;
     snow_tile *nothing; /* stands for tiles that do not exist */

@@ -1,5 +1,6 @@
 /* Which symmetries a scene has, and what happens when it loses them. */
 #include "base/hexagon.h"
+#include "base/sort.h"
 #include "reiter/model.h"
 
 #include <stdlib.h>
@@ -30,7 +31,7 @@ snow_group snow_reiter_group_of_seeds(snow_cell *seeds, size_t count)
 {
     if (count == 0)
         return SNOW_GROUP_FULL;
-    qsort(seeds, count, sizeof *seeds, compare_cells);
+    snow_sort(seeds, count, sizeof *seeds, compare_cells);
     snow_group group = 0;
     for (int symmetry = 0; symmetry < SNOW_HEXAGON_SYMMETRIES; symmetry++)
         if (has_symmetry(seeds, count, symmetry))

@@ -1,8 +1,8 @@
 /* Where the cells of the ROWS engine are stored. */
 #include "base/hexagon.h"
+#include "base/sort.h"
 #include "reiter/rows.h"
 
-#include <stdlib.h>
 #include <string.h>
 
 static int32_t chunk_ceiling(int32_t q)
@@ -192,11 +192,11 @@ static int compare_ghosts(const void *a, const void *b)
 
 static void sort_ghosts(rows *cells, size_t found)
 {
-    qsort(cells->ghost, found, sizeof *cells->ghost, compare_ghosts);
+    snow_sort(cells->ghost, found, sizeof *cells->ghost, compare_ghosts);
     for (size_t i = 0; i < found; i++)
         if (i == 0 || cells->ghost[i].to != cells->ghost[i - 1].to)
             cells->ghost[cells->ghosts++] = cells->ghost[i];
-    qsort(cells->ghost, cells->ghosts, sizeof *cells->ghost, compare_origins);
+    snow_sort(cells->ghost, cells->ghosts, sizeof *cells->ghost, compare_origins);
     size_t ghost = 0;
     for (int32_t i = 0; i < cells->bands + 3; i++) {
         while (ghost < cells->ghosts && cells->ghost[ghost].from < cells->band[i].base)

@@ -11,10 +11,9 @@
  * grid's allocator may belong to one thread, but several may draw it at once.
  */
 #include "base/floating.h"
+#include "base/model.h"
 #include "render/palette.h"
 #include "render/view.h"
-
-#include <snowgrowth/grid.h>
 
 #include <math.h>
 #include <stdbool.h>
@@ -143,52 +142,50 @@ static void lay_columns(drawing *picture)
     }
 }
 
+static void read_field(const drawing *picture, int32_t q, int32_t r, int32_t count, double *numbers)
+{
+    picture->grid->operations->read(picture->grid, picture->field, q, r, (size_t)count, numbers);
+}
+
 /* Reads the field of the cells of row r that the columns can fall on. */
-static snow_status read_cells(const drawing *picture, int32_t r, double *numbers)
+static void read_cells(const drawing *picture, int32_t r, double *numbers)
 {
     int odd = parity(r);
     if (!picture->sparse) {
-        snow_rect rect = {(int32_t)(picture->first_centre[odd] - 0.5 * r), r, picture->cells[odd], 1};
-        return snow_field_copy(picture->grid, picture->field, &rect, numbers, STRIP, NULL);
+        int32_t q = (int32_t)(picture->first_centre[odd] - 0.5 * r);
+        read_field(picture, q, r, picture->cells[odd], numbers);
+        return;
     }
-    snow_status status = SNOW_OK;
-    for (int32_t i = 0; status == SNOW_OK && i < picture->cells[odd]; i++) {
+    for (int32_t i = 0; i < picture->cells[odd]; i++) {
         double x = x_of(&picture->view, picture->begin * picture->view.samples + i);
         int32_t q = (int32_t)(nearest_centre(x, odd) - 0.5 * r);
-        status = snow_cell_value(picture->grid, picture->field, q, r, &numbers[i]);
+        read_field(picture, q, r, 1, &numbers[i]);
     }
-    return status;
 }
 
-static snow_status fill_strip(drawing *picture, int32_t r)
+static void fill_strip(drawing *picture, int32_t r)
 {
     strip *strip_of_row = &picture->strips[parity(r)];
     if (strip_of_row->filled && strip_of_row->r == r)
-        return SNOW_OK;
+        return;
     double numbers[STRIP];
-    snow_status status = read_cells(picture, r, numbers);
-    if (status != SNOW_OK)
-        return status;
+    read_cells(picture, r, numbers);
     for (int32_t i = 0; i < picture->cells[parity(r)]; i++)
         strip_of_row->shades[i] = snow_paint_shade(&picture->paint, numbers[i]);
     strip_of_row->filled = true;
     strip_of_row->r = r;
-    return SNOW_OK;
 }
 
 /* Adds the light of a line of samples to the pixels of the block. */
-static snow_status add_line(drawing *picture, sample_line line, light_sum *sums)
+static void add_line(drawing *picture, sample_line line, light_sum *sums)
 {
     const column *next = picture->columns;
     int inner = parity(line.inner);
-    snow_status status = SNOW_OK;
 
     if (line.reach >= 0.0)
-        status = fill_strip(picture, line.inner);
-    if (status == SNOW_OK && line.reach < 0.5)
-        status = fill_strip(picture, line.outer);
-    if (status != SNOW_OK)
-        return status;
+        fill_strip(picture, line.inner);
+    if (line.reach < 0.5)
+        fill_strip(picture, line.outer);
     for (int32_t x = picture->begin; x < picture->end; x++, sums++) {
         light_sum sum = *sums;
         for (int32_t i = 0; i < picture->view.samples; i++, next++) {
@@ -204,7 +201,6 @@ static snow_status add_line(drawing *picture, sample_line line, light_sum *sums)
         }
         *sums = sum;
     }
-    return SNOW_OK;
 }
 
 static uint32_t divide(uint32_t sum, uint32_t parts)
@@ -248,7 +244,7 @@ static size_t bytes_of(snow_pixel pixel)
     }
 }
 
-static snow_status draw_block(drawing *picture, unsigned char *pixels)
+static void draw_block(drawing *picture, unsigned char *pixels)
 {
     const snow_view *view = &picture->view;
     size_t bytes = bytes_of(view->pixel);
@@ -256,36 +252,37 @@ static snow_status draw_block(drawing *picture, unsigned char *pixels)
     lay_columns(picture);
     for (int32_t y = 0; y < view->height; y++) {
         light_sum sums[BLOCK] = {{0, 0, 0, 0}};
-        for (int32_t i = 0; i < view->samples; i++) {
-            snow_status status = add_line(picture, line_at(view, y * view->samples + i), sums);
-            if (status != SNOW_OK)
-                return status;
-        }
+        for (int32_t i = 0; i < view->samples; i++)
+            add_line(picture, line_at(view, y * view->samples + i), sums);
         unsigned char *row = pixels + (size_t)y * (size_t)view->width * bytes;
         for (int32_t x = picture->begin; x < picture->end; x++)
             put_pixel(picture, &sums[x - picture->begin], row + (size_t)x * bytes);
     }
-    return SNOW_OK;
+}
+
+static void find_greatest_in(const snow_grid *grid, snow_field field, const snow_rect *part, double *greatest)
+{
+    double numbers[STRIP];
+    for (int32_t r = part->r; r < part->r + part->height; r++)
+        for (int32_t done = 0; done < part->width; done += STRIP) {
+            int32_t length = part->width - done < STRIP ? part->width - done : STRIP;
+            grid->operations->read(grid, field, part->q + done, r, (size_t)length, numbers);
+            for (int32_t i = 0; i < length; i++)
+                *greatest = fmax(*greatest, numbers[i]);
+        }
 }
 
 /* The greatest number of a field on ice: everywhere else it is less. */
 static snow_status find_greatest(const snow_grid *grid, snow_field field, double *greatest)
 {
     snow_rect ice;
-    double numbers[STRIP];
     snow_status status = snow_frozen_bounds(grid, &ice);
+    bool known = grid->operations->binary && field == SNOW_FIELD_VALUE;
 
-    *greatest = 0.0;
-    for (int32_t r = ice.r; r < ice.r + ice.height; r++)
-        for (int32_t done = 0; done < ice.width; done += STRIP) {
-            int32_t length = ice.width - done < STRIP ? ice.width - done : STRIP;
-            snow_rect part = {ice.q + done, r, length, 1};
-            status = snow_field_copy(grid, field, &part, numbers, STRIP, NULL);
-            if (status != SNOW_OK)
-                return status;
-            for (int32_t i = 0; i < length; i++)
-                *greatest = fmax(*greatest, numbers[i]);
-        }
+    *greatest = known ? 1.0 : 0.0;
+    snow_rect part = {0, 0, 0, 0};
+    while (!known && status == SNOW_OK && snow_frozen_next(grid, &part))
+        find_greatest_in(grid, field, &part, greatest);
     return status;
 }
 
@@ -308,12 +305,12 @@ static snow_status draw(const snow_grid *grid, const snow_view *view, unsigned c
     int32_t width = BLOCK / view->samples;
     if (!picture.sparse && (STRIP - 4) * view->scale < width)
         width = (int32_t)((STRIP - 4) * view->scale);
-    for (int32_t x = 0; status == SNOW_OK && x < view->width; x += width) {
+    for (int32_t x = 0; x < view->width; x += width) {
         picture.begin = x;
         picture.end = view->width - x < width ? view->width : x + width;
-        status = draw_block(&picture, pixels);
+        draw_block(&picture, pixels);
     }
-    return status;
+    return SNOW_OK;
 }
 
 snow_status snow_render(const snow_grid *grid, const snow_view *view, void *pixels, size_t capacity, size_t *size)

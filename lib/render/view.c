@@ -2,10 +2,10 @@
 #include "render/view.h"
 
 #include "base/floating.h"
+#include "base/model.h"
 #include "base/structs.h"
 
 #include <snowgrowth/aggregate.h>
-#include <snowgrowth/grid.h>
 
 #include <math.h>
 #include <stdbool.h>
@@ -85,8 +85,7 @@ snow_status snow_view_read(const snow_view *caller, snow_view *view)
  * Counts the cells of row r from column q on that are not inside, up to the
  * first that is, and at most `most`; forward (direction 1) or backward (−1).
  */
-static snow_status count_outside(const snow_grid *grid, int32_t q, int32_t r, int32_t direction, int32_t most,
-                                 int32_t *outside)
+static int32_t count_outside(const snow_grid *grid, int32_t q, int32_t r, int32_t direction, int32_t most)
 {
     double inside[CHUNK];
     int32_t passed = 0;
@@ -94,19 +93,14 @@ static snow_status count_outside(const snow_grid *grid, int32_t q, int32_t r, in
     while (passed < most) {
         int32_t length = most - passed < CHUNK ? most - passed : CHUNK;
         int32_t begin = q + direction * passed;
-        snow_rect chunk = {direction > 0 ? begin : begin - length + 1, r, length, 1};
-        snow_status status = snow_field_copy(grid, SNOW_FIELD_INSIDE, &chunk, inside, CHUNK, NULL);
+        int32_t first = direction > 0 ? begin : begin - length + 1;
 
-        if (status != SNOW_OK)
-            return status;
+        grid->operations->read(grid, SNOW_FIELD_INSIDE, first, r, (size_t)length, inside);
         for (int32_t i = 0; i < length; i++, passed++)
-            if (inside[direction > 0 ? i : length - 1 - i] != 0.0) {
-                *outside = passed;
-                return SNOW_OK;
-            }
+            if (inside[direction > 0 ? i : length - 1 - i] != 0.0)
+                return passed;
     }
-    *outside = most;
-    return SNOW_OK;
+    return most;
 }
 
 /*
@@ -114,7 +108,7 @@ static snow_status count_outside(const snow_grid *grid, int32_t q, int32_t r, in
  * tell: they are a parallelogram. In each row only those cells are looked at
  * that would lie farther out than what was found before.
  */
-static snow_status find_ends(const snow_grid *grid, const snow_rect *bounds, double *left, double *right)
+static void find_ends(const snow_grid *grid, const snow_rect *bounds, double *left, double *right)
 {
     *left = HUGE_VAL;
     *right = -HUGE_VAL;
@@ -124,20 +118,14 @@ static snow_status find_ends(const snow_grid *grid, const snow_rect *bounds, dou
         double farther_right = last - floor(*right - 0.5 * r);
         int32_t most_left = farther_left < bounds->width ? (int32_t)farther_left : bounds->width;
         int32_t most_right = farther_right < bounds->width ? (int32_t)farther_right : bounds->width;
-        int32_t outside;
-        snow_status status = count_outside(grid, bounds->q, r, 1, most_left, &outside);
+        int32_t outside = count_outside(grid, bounds->q, r, 1, most_left);
 
-        if (status != SNOW_OK)
-            return status;
         if (outside < most_left)
             *left = bounds->q + outside + 0.5 * r;
-        status = count_outside(grid, last, r, -1, most_right, &outside);
-        if (status != SNOW_OK)
-            return status;
+        outside = count_outside(grid, last, r, -1, most_right);
         if (outside < most_right)
             *right = last - outside + 0.5 * r;
     }
-    return SNOW_OK;
 }
 
 /* Pixels that a length of so many pixels needs; the rounding errors of the scale need none. */
@@ -153,13 +141,16 @@ static snow_status fit(const snow_grid *grid, int32_t side, snow_view *view)
     snow_status status = snow_domain_bounds(grid, &bounds);
 
     if (status == SNOW_OK)
-        status = find_ends(grid, &bounds, &left, &right);
+        status = grid->operations->can_read(grid, SNOW_FIELD_INSIDE);
     if (status != SNOW_OK)
         return status;
 
     /* The hexagon round a cell reaches 1/2 to the sides and 1/√3, two thirds of a row distance, up and down. */
-    width = right - left + 1.0;
     height = (bounds.height - 1 + 4.0 / 3.0) * SNOW_ROW_DISTANCE;
+    if (height * LEAST_SCALE > GREATEST_SIDE) /* too many rows to be looked through */
+        return SNOW_ERROR_RANGE;
+    find_ends(grid, &bounds, &left, &right);
+    width = right - left + 1.0;
     view->scale = side == 0 ? 1.0 : side / fmax(width, height);
     width = whole_pixels(width * view->scale);
     height = whole_pixels(height * view->scale);

@@ -133,6 +133,47 @@ typedef struct packard_zone {
     void *contains_context;
 } packard_zone;
 
+typedef struct site {
+    int32_t x, y, z;
+} site;
+
+typedef struct aggregate_params {
+    size_t struct_size;
+    int scene;
+    int lattice;
+    int contact;
+    int engine;
+    uint64_t random_seed;
+    double sticking;
+    int32_t hits;
+    int32_t record_order;
+    const site *seeds;
+    size_t seed_count;
+    const site *obstacles;
+    size_t obstacle_count;
+    double kill_radius;
+    int32_t launch_radius;
+    int32_t end_radius;
+    int32_t width;
+    int32_t height;
+    int32_t depth;
+    int32_t periodic;
+    int32_t launch_first;
+    int32_t launch_last;
+    int32_t cathode_first;
+    int32_t cathode_last;
+    double interaction;
+    int32_t hardness_least;
+    int32_t hardness_greatest;
+    int32_t wall_left;
+    int32_t wall_left_top;
+    int32_t wall_right;
+    int32_t wall_right_top;
+    uint64_t particles;
+    double density;
+    double mobility;
+} aggregate_params;
+
 typedef struct view {
     size_t struct_size;
     int32_t width;
@@ -161,6 +202,16 @@ enum {
     PACKARD_QUADTREE = 3,
     PACKARD_RESTRICTION = 1,
     PACKARD_SIDES = 2,
+    AGGREGATE_WITTEN_SANDER = 1,
+    AGGREGATE_SHORE = 5,
+    AGGREGATE_CLUSTER_CLUSTER = 8,
+    AGGREGATE_OFF_LATTICE = 9,
+    AGGREGATE_SQUARE = 1,
+    AGGREGATE_HEXAGONAL = 2,
+    AGGREGATE_CUBIC = 3,
+    AGGREGATE_ARRIVAL = 1,
+    AGGREGATE_ENTRY = 2,
+    AGGREGATE_STEPS = 2,
     PALETTE_AGE = 4,
     PIXEL_GREY = 1
 };
@@ -177,6 +228,10 @@ int snow_reiter_create(const reiter_params *, const options *, grid **);
 int snow_reiter_change(grid *, const reiter_conditions *);
 int snow_packard_create(const packard_params *, const options *, grid **);
 int snow_packard_add_zone(grid *, const packard_zone *);
+void snow_aggregate_params_init(aggregate_params *, size_t);
+int snow_aggregate_create(const aggregate_params *, const options *, grid **);
+int snow_aggregate_particles(const grid *, uint64_t *);
+int snow_aggregate_sites(const grid *, uint64_t, site *, size_t);
 int snow_step(grid *, int64_t);
 int snow_run(grid *, const stop *, summary *);
 void snow_destroy(grid *);
@@ -313,6 +368,27 @@ static void grow_packard(const options *with)
     snow_destroy(crystal);
 }
 
+static void grow_aggregate(const options *with)
+{
+    aggregate_params params;
+    snow_aggregate_params_init(&params, sizeof params);
+    CHECK(params.scene == AGGREGATE_WITTEN_SANDER && params.lattice == AGGREGATE_SQUARE && params.hits == 1);
+    CHECK(params.contact == AGGREGATE_ARRIVAL && params.sticking == 1 && params.launch_first == INT32_MIN);
+    CHECK(params.hardness_greatest == 3 && params.wall_right_top == 255 && params.density == 0.05);
+    params.record_order = 1;
+    grid *cluster = NULL;
+    CHECK(snow_aggregate_create(&params, with, &cluster) == OK);
+    CHECK(snow_step(cluster, 40) == OK);
+    uint64_t particles = 0;
+    site first = {7, 7, 7};
+    double step = -1;
+    CHECK(snow_aggregate_particles(cluster, &particles) == OK && particles == 41);
+    CHECK(snow_aggregate_sites(cluster, 0, &first, 1) == OK && first.x == 0 && first.y == 0 && first.z == 0);
+    CHECK(snow_aggregate_sites(cluster, 40, &first, 1) == OK);
+    CHECK(snow_cell_value(cluster, FIELD_FREEZE_STEP, first.x, first.y, &step) == OK && step == 40);
+    snow_destroy(cluster);
+}
+
 /* A program of a later release, on this library: its structs are longer. Their new members are 0 unless it sets them. */
 static void hand_over_longer_structs(void)
 {
@@ -413,12 +489,65 @@ static grid *grow_torus(void)
     return grown(status, crystal, 5);
 }
 
+static grid *grow_scene(int scene, int lattice, int contact, int engine)
+{
+    aggregate_params params;
+    grid *cluster = NULL;
+    snow_aggregate_params_init(&params, sizeof params);
+    params.scene = scene;
+    params.lattice = lattice;
+    params.contact = contact;
+    params.engine = engine;
+    params.random_seed = 11;
+    params.width = 24;
+    params.height = 30;
+    params.particles = 90;
+    int status = snow_aggregate_create(&params, NULL, &cluster);
+    return grown(status, cluster, 60);
+}
+
+static grid *grow_jumps(void)
+{
+    return grow_scene(AGGREGATE_WITTEN_SANDER, AGGREGATE_HEXAGONAL, AGGREGATE_ENTRY, 0);
+}
+
+static grid *grow_space(void)
+{
+    return grow_scene(AGGREGATE_WITTEN_SANDER, AGGREGATE_CUBIC, AGGREGATE_ARRIVAL, 0);
+}
+
+static grid *grow_steps(void)
+{
+    return grow_scene(AGGREGATE_WITTEN_SANDER, AGGREGATE_SQUARE, AGGREGATE_ARRIVAL, AGGREGATE_STEPS);
+}
+
+static grid *grow_shore(void)
+{
+    return grow_scene(AGGREGATE_SHORE, AGGREGATE_SQUARE, AGGREGATE_ARRIVAL, 0);
+}
+
+static grid *grow_drifting(void)
+{
+    return grow_scene(AGGREGATE_CLUSTER_CLUSTER, AGGREGATE_SQUARE, AGGREGATE_ARRIVAL, 0);
+}
+
+static grid *grow_discs(void)
+{
+    return grow_scene(AGGREGATE_OFF_LATTICE, AGGREGATE_SQUARE, AGGREGATE_ARRIVAL, 0);
+}
+
 static const saved crystals[] = {
     {"reiter", grow_rows, UINT64_C(0xcb25e56995a05bea), UINT64_C(0x6e94abca1b229d71)},
     {"reiter-single", grow_single, UINT64_C(0x5419ffbcea1dc69c), UINT64_C(0x65d17c1d5f2c16af)},
     {"packard-zone", grow_zoned, UINT64_C(0xd379b73b0f14dbf2), UINT64_C(0xfb772cf894169279)},
     {"packard-quadtree", grow_tree, UINT64_C(0xf5beaa223feaf2ab), UINT64_C(0x979fbb0e815621d0)},
     {"packard-torus", grow_torus, UINT64_C(0x119da0ca84bdafae), UINT64_C(0x3a0951240c74e0d5)},
+    {"aggregate-jumps", grow_jumps, UINT64_C(0xaf884e2f10fae569), UINT64_C(0xe431829061dde8ec)},
+    {"aggregate-space", grow_space, UINT64_C(0x8c87e53581836786), UINT64_C(0x46587d9424eb8916)},
+    {"aggregate-steps", grow_steps, UINT64_C(0x825265e0dbf711d4), UINT64_C(0x3d36b9b21aa219aa)},
+    {"aggregate-shore", grow_shore, UINT64_C(0x37f96f66901b4ced), UINT64_C(0xd6d78872b83ce73f)},
+    {"aggregate-drifting", grow_drifting, UINT64_C(0x1604d54a4f9beff3), UINT64_C(0xa11aaa4ef22a9c9e)},
+    {"aggregate-discs", grow_discs, UINT64_C(0x9cc74efbc0aac1b6), UINT64_C(0x45c91de432a3cb7a)},
 };
 enum { CRYSTALS = sizeof crystals / sizeof crystals[0], MOST_BYTES = 1 << 18 };
 
@@ -486,6 +615,7 @@ int main(int argc, char **argv)
     options with = counting_options(&blocks);
     grow_reiter(&with);
     grow_packard(&with);
+    grow_aggregate(&with);
     CHECK(blocks == 0);
     hand_over_longer_structs();
     for (int i = 0; i < CRYSTALS; i++)

@@ -42,7 +42,7 @@ if [ -n "$SNOW_STATIC" ]; then
     nm -u -A "$SNOW_STATIC" 2>/dev/null | awk '{ print $1, $NF }' >"$tap_folder/wanted"
     refuse 'the archive prints nothing, ends nothing, asks no environment' \
         grep -E ' (printf|fprintf|vfprintf|puts|putchar|fputs|fwrite|perror|stdout|stderr|abort|exit|_exit|getenv|signal|raise|time|rand|srand|random|setlocale|fopen|open)$' "$tap_folder/wanted"
-    grep -E ' (malloc|calloc|realloc|free|posix_memalign|aligned_alloc|strdup|mmap)$' "$tap_folder/wanted" |
+    grep -E ' (malloc|calloc|realloc|free|posix_memalign|aligned_alloc|strdup|mmap|qsort)$' "$tap_folder/wanted" |
         grep -v 'base_heap\.c\.o' >"$tap_folder/allocators" || :
     refuse 'only base/heap.c knows malloc()' test -s "$tap_folder/allocators"
     # Data that can change would be shared by grids. The maps' "nothing" is an address that is never written to.

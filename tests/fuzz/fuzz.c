@@ -123,10 +123,10 @@ static void query_fields(const snow_grid *grid)
     }
 }
 
-/* Some models have no such measure. */
+/* Some models have no such measure, or one that needs what they did not record. */
 static bool answers(snow_status status)
 {
-    return status == SNOW_OK || status == SNOW_ERROR_UNSUPPORTED;
+    return status == SNOW_OK || status == SNOW_ERROR_UNSUPPORTED || status == SNOW_ERROR_NOT_RECORDED;
 }
 
 static void query_whole(const snow_grid *grid)
@@ -136,8 +136,11 @@ static void query_whole(const snow_grid *grid)
     REQUIRE(answers(snow_mass(grid, &vapour, &ice)));
     REQUIRE(answers(snow_symmetry_defect(grid, &defect)) && defect >= 0);
     REQUIRE(snow_digest(grid, &digest) == SNOW_OK && snow_digest(grid, &again) == SNOW_OK && digest == again);
-    REQUIRE(snow_box_count(grid, 1, &boxes) == SNOW_OK && snow_frozen(grid, &frozen) == SNOW_OK && boxes == frozen);
-    REQUIRE(snow_mass_radius(grid, (double[]){0, 2, 1e30}, 3, masses) == SNOW_OK && masses[2] == frozen);
+    REQUIRE(snow_frozen(grid, &frozen) == SNOW_OK);
+    snow_status status = snow_box_count(grid, 1, &boxes);
+    REQUIRE(answers(status) && (status != SNOW_OK || boxes == frozen));
+    status = snow_mass_radius(grid, (double[]){0, 2, 1e30}, 3, masses);
+    REQUIRE(answers(status) && (status != SNOW_OK || masses[2] == frozen));
     (void)snow_dimension(grid, &dimension);
 }
 
