@@ -9,6 +9,7 @@
 
 #include "aggregate/exits.h"
 #include "aggregate/potential.h"
+#include "aggregate/source.h"
 
 enum { MOST = 64 };
 
@@ -122,6 +123,67 @@ static void square_exits_keep_a_harmonic_function(void **state)
     }
 }
 
+/* The mean over a sphere of the density times a polynomial of degree up to 16: Gauss on panels of z, and points evenly
+   round the axis. */
+static double mean_over_sphere(double radius, double (*polynomial)(double x, double y, double z))
+{
+    enum { PANELS = 16, POINTS = 32 };
+    static const double node[2] = {0.33998104358485626, 0.86113631159405258};
+    static const double weight[2] = {0.65214515486254614, 0.34785484513745386};
+    const double pi = 3.14159265358979323846;
+    double mean = 0;
+    for (int i = 0; i < 4 * PANELS; i++) {
+        double z = (2 * (i / 4) + 1 + (i % 2 == 0 ? 1 : -1) * node[i / 2 % 2]) / PANELS - 1;
+        double across = sqrt(1 - z * z);
+        for (int k = 0; k < POINTS; k++) {
+            double x = across * cos(2 * pi * k / POINTS);
+            double y = across * sin(2 * pi * k / POINTS);
+            mean += weight[i / 2 % 2] / (2 * PANELS * POINTS) * snow_source_sphere_density(radius, x, y, z) *
+                    polynomial(radius * x, radius * y, radius * z);
+        }
+    }
+    return mean;
+}
+
+static double one(double x, double y, double z)
+{
+    (void)x;
+    (void)y;
+    (void)z;
+    return 1;
+}
+
+/* One step changes x^4 + y^4 + z^4 - 3 (x^2 y^2 + ...) and x^2 + y^2 + z^2 by 1 in the mean; the mean over a cell of
+   their difference is less by 0.275. */
+static double fourth(double x, double y, double z)
+{
+    double p = x * x;
+    double q = y * y;
+    double r = z * z;
+    return p * p + q * q + r * r - 3 * (p * q + q * r + r * p) - (p + q + r) - 0.275;
+}
+
+/* The same of degree 6, but for what does not grow. */
+static double sixth(double x, double y, double z)
+{
+    double p = x * x;
+    double q = y * y;
+    double r = z * z;
+    return p * p * p + q * q * q + r * r * r - 7.5 * (p * p * (q + r) + q * q * (r + p) + r * r * (p + q)) +
+           90 * p * q * r - (p + q + r);
+}
+
+static void spheres_keep_harmonic_functions(void **state)
+{
+    (void)state;
+    for (double radius = 16; radius <= 256; radius *= 4) {
+        near(1, mean_over_sphere(radius, one), 1e-12);
+        near(0, mean_over_sphere(radius, fourth), 1e-10 * pow(radius, 4));
+        near(0, mean_over_sphere(radius, fourth), 1e-4 * pow(radius, 2));
+        near(0, mean_over_sphere(radius, sixth), 1e-12 * pow(radius, 6) + 1e-4 * pow(radius, 2));
+    }
+}
+
 static void kernels_have_their_known_values(void **state)
 {
     (void)state;
@@ -196,6 +258,7 @@ int main(void)
         cmocka_unit_test(cubes_are_left_by_exact_fractions),
         cmocka_unit_test(laws_add_up_to_one),
         cmocka_unit_test(square_exits_keep_a_harmonic_function),
+        cmocka_unit_test(spheres_keep_harmonic_functions),
         cmocka_unit_test(kernels_have_their_known_values),
         cmocka_unit_test(kernels_are_harmonic_everywhere),
     };

@@ -302,32 +302,9 @@ COPIED void note(const snow_squad *squad, int lane, manner how, const snow_fligh
         snow_squad_heights(squad, squad->next)->z[lane] = flight->z;
 }
 
-#if defined(__GNUC__)
-#define FETCH(address) __builtin_prefetch(address)
-#else
-#define FETCH(address) (void)(address)
-#endif
-
-/* What each will ask for, one link after the other: so the processor waits for all at a time. Idle lanes do no harm. */
-COPIED void fetch_ahead(const snow_space_map *map, const snow_squad *squad)
-{
-    const snow_space_page *page[SNOW_LANES];
-    for (int lane = 0; lane < SNOW_LANES; lane++) {
-        const snow_flight *flight = &squad->flight[lane];
-        page[lane] = snow_space_map_find(map, flight->x, flight->y, flight->z);
-        FETCH(&page[lane]->near);
-    }
-    for (int lane = 0; lane < SNOW_LANES; lane++) {
-        const snow_flight *flight = &squad->flight[lane];
-        FETCH(snow_space_page_pair(page[lane], flight->x, flight->y, flight->z));
-    }
-}
-
 /* A turn of each. */
 COPIED void all_go_on(const snow_ground *ground, manner how, snow_squad *squad)
 {
-    if (how.lattice == SNOW_AGGREGATE_CUBIC)
-        fetch_ahead(&ground->space, squad);
     for (int lane = 0; lane < SNOW_LANES; lane++) {
         if (RARE((squad->busy >> lane & 1) == 0))
             continue;

@@ -146,16 +146,6 @@ static inline snow_map_answer snow_space_page_look(const snow_space_page *page, 
     return (snow_map_answer){(pair >> 8) + (pair >> snow_space_octant(u, v, w) & 1), &page->changed};
 }
 
-/* The pair that a line of the page tells about, so that it can be fetched. */
-static inline const void *snow_space_page_pair(const snow_space_page *page, int32_t x, int32_t y, int32_t z)
-{
-    uint32_t u = (uint32_t)x;
-    uint32_t v = (uint32_t)y;
-    uint32_t w = (uint32_t)z;
-    const snow_space_line *line = SNOW_MAP_GET_ADDRESS(page->line[snow_space_octant(u / 8, v / 8, w / 8)]);
-    return &line->pair[snow_space_place(u / 2, v / 2, w / 2)];
-}
-
 /* What is on a site; only where matter is kept. */
 static inline int snow_space_map_matter(const snow_space_map *map, int32_t x, int32_t y, int32_t z)
 {
