@@ -63,6 +63,23 @@ static int64_t free_distance(snow_aggregate_lattice lattice, snow_site from, con
     return least;
 }
 
+/* What the map of the plane may lose: where a block lies in its cells, and a site in its block; the same by tiles.
+   Both count twice along the third axis of the hexagonal lattice. */
+static int64_t least_told(snow_aggregate_lattice lattice, int64_t free)
+{
+    static const struct {
+        int64_t most, cell, place;
+    } told[] = {{8, 2, 4}, {32, 4, 4}, {64, 8, 4}, {256, 16, 32}, {512, 32, 32}, {1024, 64, 32}, {2048, 128, 32}};
+    int64_t times = lattice == SNOW_AGGREGATE_HEXAGONAL ? 2 : 1;
+    int64_t least = 1;
+    for (size_t i = 0; i < sizeof told / sizeof told[0]; i++) {
+        int64_t loss = times * (told[i].cell + told[i].place - 2);
+        int64_t told_so = free - loss < told[i].most ? free - loss : told[i].most;
+        least = greater(least, told_so);
+    }
+    return least;
+}
+
 /* One map or the other. */
 typedef struct world {
     snow_aggregate_lattice lattice;
@@ -178,6 +195,8 @@ static void check_answer(const world *self, snow_site site, const snow_site *fil
         assert_int_equal(free, seen);
     assert_true(seen < (uint32_t)self->exits.classes);
     assert_true(seen == 0 || self->exits.table[seen].radius <= free);
+    if (seen > 0 && self->lattice != SNOW_AGGREGATE_CUBIC)
+        assert_true((int)seen >= snow_exits_class(&self->exits, least_told(self->lattice, free)));
 }
 
 static void regions_of_a_lattice_are_free(snow_aggregate_lattice lattice)

@@ -1,13 +1,14 @@
 #include "aggregate/plane_halo.h"
 
-enum { BLOCK = 4, TILE = 32, LARGEST = 512, LARGEST_OF_BLOCKS = 8 };
-
 enum {
+    BLOCK = 4,
+    TILE = 32,
     SITES_TELL = 3, /* nearer places are as good as touched: the map knows better for each of their sites */
-    BEYOND_BLOCKS = LARGEST_OF_BLOCKS * SNOW_HALO_BLOCK_REACH + 2,
-    BEYOND_TILES = LARGEST * SNOW_HALO_TILE_REACH + 2,
-    NOTHING = 127 /* greater than all classes */
+    NOTHING = 127   /* greater than all classes */
 };
+
+/* How far cells of 2, 4, 8 ... sites are seen. */
+static const int reach_of[SNOW_HALO_SIZES] = {8, 32, 64, 256, 512, 1024, 2048, 4096, SNOW_HALO_REACH};
 
 int snow_halo_gap(int from, int width, int to, int other_width)
 {
@@ -20,9 +21,16 @@ int snow_halo_gap(int from, int width, int to, int other_width)
 typedef struct telling {
     int place; /* sites a side */
     int cell;
-    int least; /* of nearer places others tell; these are at least so far away */
+    int least; /* of nearer places smaller cells tell; these are at least so far away */
     int most;
 } telling;
+
+static telling telling_of(int kind)
+{
+    int place = kind < SNOW_HALO_BLOCK_SIZES ? BLOCK : TILE;
+    int least = kind == 0 ? 0 : reach_of[kind - 1] + 2;
+    return (telling){place, (int)snow_halo_size(kind), least, reach_of[kind] + 1};
+}
 
 static uint8_t class_of(const snow_exits *exits, telling what, int distance)
 {
@@ -56,32 +64,31 @@ static void make(snow_halo *halo, const snow_exits *exits, telling what, int x, 
     }
 }
 
-/* Cells at least as large as a place. Those half as large tell what is nearer. */
-static void make_row(snow_halo *halo, const snow_exits *exits, int place, int count, int reach)
-{
-    for (int i = 0; i < count; i++) {
-        int cell = place << i;
-        make(&halo[i], exits, (telling){place, cell, cell / 2 * reach + 2, cell * reach + 1}, 0, 0);
-    }
-}
-
 /* Cells half as large as a place. */
-static void make_halves(snow_halo halo[2][2], const snow_exits *exits, int place, int least, int reach)
+static void make_halves(snow_halo halo[2][2], const snow_exits *exits, int kind)
 {
-    telling what = {place, place / 2, least, place / 2 * reach + 1};
+    telling what = telling_of(kind);
     for (int y = 0; y < 2; y++)
         for (int x = 0; x < 2; x++)
-            make(&halo[y][x], exits, what, x * place / 2, y * place / 2);
+            make(&halo[y][x], exits, what, x * what.cell, y * what.cell);
 }
 
 void snow_halos_make(snow_halos *halos, const snow_exits *exits)
 {
-    make_halves(halos->half_block, exits, BLOCK, 0, SNOW_HALO_BLOCK_REACH);
-    make_row(halos->block, exits, BLOCK, SNOW_HALO_BLOCK_SIZES - 1, SNOW_HALO_BLOCK_REACH);
-    make_halves(halos->half_tile, exits, TILE, BEYOND_BLOCKS, SNOW_HALO_TILE_REACH);
-    make_row(halos->tile, exits, TILE, SNOW_HALO_TILE_SIZES - 1, SNOW_HALO_TILE_REACH);
-    halos->beyond_blocks = (uint8_t)snow_exits_class(exits, BEYOND_BLOCKS);
-    halos->beyond_tiles = (uint8_t)snow_exits_class(exits, BEYOND_TILES);
+    enum { HALF_BLOCK, BLOCKS, HALF_TILE = SNOW_HALO_BLOCK_SIZES, TILES };
+    make_halves(halos->half_block, exits, HALF_BLOCK);
+    for (int kind = BLOCKS; kind < HALF_TILE; kind++)
+        make(&halos->block[kind - BLOCKS], exits, telling_of(kind), 0, 0);
+    make_halves(halos->half_tile, exits, HALF_TILE);
+    for (int kind = TILES; kind < SNOW_HALO_SIZES; kind++)
+        make(&halos->tile[kind - TILES], exits, telling_of(kind), 0, 0);
+    halos->beyond_blocks = (uint8_t)snow_exits_class(exits, reach_of[HALF_TILE - 1] + 2);
+    halos->beyond_tiles = (uint8_t)snow_exits_class(exits, SNOW_HALO_REACH + 2);
+}
+
+uint32_t snow_halo_reach(int kind)
+{
+    return (uint32_t)reach_of[kind];
 }
 
 const snow_halo *snow_halos_find(const snow_halos *halos, int kind, uint32_t u, uint32_t v)

@@ -2,12 +2,11 @@
    special site, says about the places round it: how large a region is at least
    free round each of their sites.
 
-   Places are blocks (4 x 4 sites), which cells of 2, 4 and 8 sites tell up to
-   eight times their own size, and tiles (32 x 32), which those of 16 and more tell
-   up to sixteen times. A cell tells nothing where the next smaller ones do. So
-   what is lost by their size is about the same part of each distance, and what is
-   said far away is said seldom, since few large cells ever get their first
-   special site.
+   Places are blocks (4 x 4 sites), about which cells of 2, 4 and 8 sites tell, and
+   tiles (32 x 32), about which those of 16 and more tell: the larger ones farther,
+   and nothing where the next smaller ones do. So what is lost by their size is
+   about the same part of each distance, and what is said far away is said seldom,
+   since few large cells ever get their first special site.
 
    The distance between a place and a cell is that of their nearest sites; it is
    told as a class of exits.h. */
@@ -22,12 +21,11 @@ enum {
     SNOW_HALO_BLOCK_SIZES = 3, /* of cells: 2, 4, 8 */
     SNOW_HALO_TILE_SIZES = 6,  /* 16 ... 512 */
     SNOW_HALO_SIZES = SNOW_HALO_BLOCK_SIZES + SNOW_HALO_TILE_SIZES,
-    SNOW_HALO_BLOCK_REACH = 8, /* times the size of a cell */
-    SNOW_HALO_TILE_REACH = 16,
-    SNOW_HALO_GROUP = 8,                    /* places side by side that are told at once */
+    SNOW_HALO_REACH = 8192,    /* of the largest ones, sites */
+    SNOW_HALO_GROUP = 8,       /* places side by side that are told at once */
     SNOW_HALO_MARGIN = SNOW_HALO_GROUP - 1, /* of tables */
     /* Tiles from one end of the halo of the largest cell to the other. */
-    SNOW_HALO_MOST = 2 * (512 * SNOW_HALO_TILE_REACH / 32 + 1) + 512 / 32
+    SNOW_HALO_MOST = 2 * (SNOW_HALO_REACH / 32 + 1) + 512 / 32
 };
 
 /* Sites a side. */
@@ -35,6 +33,9 @@ static inline uint32_t snow_halo_size(int kind)
 {
     return 2u << kind;
 }
+
+/* How far cells of a kind are seen, in sites. */
+uint32_t snow_halo_reach(int kind);
 
 /* The greatest of three classes: by columns, by rows, and on the hexagonal
    lattice by the sum of both. Places are counted from the one that the cell

@@ -73,9 +73,8 @@ static size_t tiles_of(snow_plane_box box)
     return (size_t)box.columns * box.rows;
 }
 
-static void start_page(snow_plane_page *page, uint8_t class, bool is_shared)
+static void start_page(snow_plane_page *page, uint8_t class)
 {
-    page->is_shared = is_shared;
     for (int i = 0; i < 64; i++)
         atomic_init(&page->near[i], class);
     for (int i = 0; i < 4; i++)
@@ -132,10 +131,10 @@ snow_status snow_plane_map_start(snow_plane_map *map, snow_heap *heap, const sno
     map->halos = snow_heap_get_raw(heap, 1, sizeof *map->halos);
     if (map->halos == NULL)
         return heap->refusal;
-    start_page(&map->outside, SNOW_MAP_BEYOND, true);
+    start_page(&map->outside, SNOW_MAP_BEYOND);
     snow_halos_make(map->halos, exits);
     for (int class = 0; class < SNOW_EXIT_CLASSES; class++)
-        start_page(&map->far[class], (uint8_t)class, true);
+        start_page(&map->far[class], (uint8_t)class);
     make_prints(map);
     return cover(map, heap, box);
 }
@@ -162,17 +161,21 @@ static size_t tile_at(const snow_plane_map *map, int64_t column, int64_t row)
     return (size_t)row * map->box.columns + (size_t)column;
 }
 
-static inline snow_plane_page *page_of(snow_plane_map *map, int64_t column, int64_t row)
+/* The page is not touched to learn that: it may be far from the processor. */
+static bool has_own_page(const snow_plane_map *map, size_t tile)
 {
-    snow_plane_page *_Atomic *entry = &map->tile[tile_at(map, column, row)];
-    snow_plane_page *page = SNOW_MAP_GET(*entry);
-    if (!page->is_shared)
-        return page;
-    page = snow_pool_take(&map->pages);
-    start_page(page, map->halos->beyond_blocks, false);
-    stamp(map, tile_at(map, column, row));
-    SNOW_MAP_PUT_ADDRESS(*entry, page);
-    return page;
+    return SNOW_MAP_GET(map->tile[tile]) != &map->far[map->tile_class[tile]];
+}
+
+static snow_plane_page *page_of(snow_plane_map *map, size_t tile)
+{
+    if (!has_own_page(map, tile)) {
+        snow_plane_page *page = snow_pool_take(&map->pages);
+        start_page(page, map->halos->beyond_blocks);
+        stamp(map, tile);
+        SNOW_MAP_PUT_ADDRESS(map->tile[tile], page);
+    }
+    return SNOW_MAP_GET(map->tile[tile]);
 }
 
 static snow_plane_page *known_page(const snow_plane_map *map, uint32_t u, uint32_t v)
@@ -188,7 +191,7 @@ static snow_plane_line *line_of(snow_plane_map *map, uint32_t u, uint32_t v)
     snow_plane_line *line = SNOW_MAP_GET(page->line[place]);
     if (line == &snow_plane_nothing.line) {
         line = snow_pool_take(&map->lines);
-        SNOW_MAP_PUT_ADDRESS(page_of(map, u / 32, v / 32)->line[place], line);
+        SNOW_MAP_PUT_ADDRESS(page_of(map, tile_at(map, u / TILE, v / TILE))->line[place], line);
     }
     return line;
 }
@@ -292,7 +295,7 @@ static void spread_to_blocks(snow_plane_map *map, const snow_halo *halo, company
         int64_t first = at_least(near.first_row, 8 * y);
         int64_t last = at_most(near.last_row, 8 * y + 7);
         for (int64_t x = near.first_column / 8; x <= near.last_column / 8; x++)
-            if (lower_rows(page_of(map, x, y), (int)(first - 8 * y), (int)(last - 8 * y), halo,
+            if (lower_rows(page_of(map, tile_at(map, x, y)), (int)(first - 8 * y), (int)(last - 8 * y), halo,
                            (int)(8 * x - i - halo->first), (int)(first - j - halo->first)))
                 stamp(map, tile_at(map, x, y));
     }
@@ -300,11 +303,11 @@ static void spread_to_blocks(snow_plane_map *map, const snow_halo *halo, company
 
 static void set_tile_class(snow_plane_map *map, size_t tile, uint8_t class)
 {
+    if (!has_own_page(map, tile)) {
+        stamp(map, tile);
+        SNOW_MAP_PUT_ADDRESS(map->tile[tile], &map->far[class]);
+    }
     map->tile_class[tile] = class;
-    if (!SNOW_MAP_GET(map->tile[tile])->is_shared)
-        return;
-    stamp(map, tile);
-    SNOW_MAP_PUT_ADDRESS(map->tile[tile], &map->far[class]);
 }
 
 /* Eight tiles. */
@@ -325,7 +328,8 @@ static void spread_to_tiles(snow_plane_map *map, const snow_halo *halo, company 
     part near = clip(part_of(halo, beside, i, j), map->box.columns, map->box.rows);
     for (int64_t row = near.first_row; row <= near.last_row; row++) {
         int y = (int)(row - j - halo->first);
-        for (int64_t column = near.first_column / SNOW_HALO_GROUP * SNOW_HALO_GROUP; column <= near.last_column; column += SNOW_HALO_GROUP) {
+        int64_t first = near.first_column / SNOW_HALO_GROUP * SNOW_HALO_GROUP;
+        for (int64_t column = first; column <= near.last_column; column += SNOW_HALO_GROUP) {
             int x = (int)(column - i - halo->first);
             size_t tile = (size_t)row * map->box.columns + (size_t)column;
             uint64_t known = snow_halo_group(&map->tile_class[tile]);
@@ -382,7 +386,7 @@ static void spread_out(snow_plane_map *map, const snow_plane_map *old, uint32_t 
 {
     for (int kind = SNOW_HALO_BLOCK_SIZES; kind < SNOW_HALO_SIZES; kind++) {
         uint32_t size = snow_halo_size(kind);
-        uint32_t reach = (SNOW_HALO_TILE_REACH + 1) * size + TILE;
+        uint32_t reach = snow_halo_reach(kind) + size + TILE;
         for (uint32_t v = 0; v < old->height; v += size) {
             for (uint32_t u = 0; u < old->width; u += size) {
                 bool sees_out = u < reach || v < reach || u + reach >= old->width || v + reach >= old->height;
@@ -445,7 +449,8 @@ static void add_prints(snow_plane_map *map, int64_t u, int64_t v)
             continue;
         for (int64_t first = least; first <= most; first = first - first % 16 + 16) {
             int64_t last = at_most(first - first % 16 + 15, most);
-            add_print(map, (uint32_t)column, (uint32_t)first, (uint32_t)last, print + 3 * (first - v + SITE_REACH) + word);
+            add_print(map, (uint32_t)column, (uint32_t)first, (uint32_t)last,
+                      print + 3 * (first - v + SITE_REACH) + word);
         }
     }
 }

@@ -45,7 +45,6 @@ typedef struct snow_plane_page {
         _Atomic uint64_t near_row[8];
     };
     snow_plane_line *_Atomic line[4]; /* never NULL: where nothing is near they share one */
-    bool is_shared;                   /* by tiles that have none of their own */
 } snow_plane_page;
 
 /* The sites that the map covers: whole cells of the largest size; x and y are multiples of 512. */
