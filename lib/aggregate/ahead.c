@@ -12,7 +12,7 @@ enum { LOOKS_BEFORE_YIELD = 200 };
 enum { PLANE_ROWS = 256, SPACE_ROWS = 512 };
 
 /* So many walkers of a thread are on their way; so many more may have landed and wait for those before them. */
-enum { SQUADS = 2, WAITING = 24, ABREAST_IN_TURN = 6, WAITING_IN_TURN = 6 };
+enum { SQUADS = 2, WAITING = 16, ABREAST_IN_TURN = 6, WAITING_IN_TURN = 6 };
 
 snow_status snow_ahead_start(snow_ahead *ahead, snow_heap *heap, int threads, bool space)
 {
