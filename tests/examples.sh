@@ -413,9 +413,10 @@ test_interrupt() {
     check 'aggregate, Ctrl-C: a line a particle' [ "$(lines cloud)" -eq "$(sed 's/particles=\([0-9]*\) .*/\1/' stdout)" ]
     run aggregate --load cloud.snow --particles 1 --sites again
     check 'aggregate, Ctrl-C: the growth' cmp -s cloud again
-    for program in alpha_sweep random_seeds changing_conditions; do
-        interrupt 1 $program --radius 400 --max-steps 100000000000 --panel 40 --out sheet.png
-        check "$program, Ctrl-C: what is done is drawn" ended_early $program sheet.png
+    for sheet in alpha_sweep:400 random_seeds:400 changing_conditions:1000; do
+        program=${sheet%:*}
+        interrupt 1 "$program" --radius "${sheet#*:}" --max-steps 100000000000 --panel 40 --out sheet.png
+        check "$program, Ctrl-C: what is done is drawn" ended_early "$program" sheet.png
     done
     if built animation; then
         interrupt 1 animation --radius 400 --beta 0.1 --max-steps 100000000 --every 1 --size 50 --out growth.gif
