@@ -413,7 +413,7 @@ test_interrupt() {
     check 'aggregate, Ctrl-C: a line a particle' [ "$(lines cloud)" -eq "$(sed 's/particles=\([0-9]*\) .*/\1/' stdout)" ]
     run aggregate --load cloud.snow --particles 1 --sites again
     check 'aggregate, Ctrl-C: the growth' cmp -s cloud again
-    for sheet in alpha_sweep:400 random_seeds:400 changing_conditions:1000; do
+    for sheet in alpha_sweep:1000 random_seeds:400 changing_conditions:1000; do
         program=${sheet%:*}
         interrupt 1 "$program" --radius "${sheet#*:}" --max-steps 100000000000 --panel 40 --out sheet.png
         check "$program, Ctrl-C: what is done is drawn" ended_early "$program" sheet.png
