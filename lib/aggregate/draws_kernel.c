@@ -5,12 +5,7 @@
 #define NAME(a, b) PASTE(a, b)
 #define REFILL(isa) NAME(snow_draws_refill_, isa)
 
-enum { ROUNDS = 10, BLOCKS = SNOW_DRAWS_AT_ONCE / 2 };
-
-static const uint32_t multiplier_0 = 0xD2511F53u;
-static const uint32_t multiplier_1 = 0xCD9E8D57u;
-static const uint32_t weyl_0 = 0x9E3779B9u;
-static const uint32_t weyl_1 = 0xBB67AE85u;
+enum { BLOCKS = SNOW_DRAWS_AT_ONCE / 2 };
 
 /* Lanes of 64 bits, each with a word of a block in its lower half; what stands
    in the upper half does not matter. */
@@ -84,17 +79,17 @@ void REFILL(SNOW_KERNEL)(snow_draws *draws)
     }
     lanes key_0 = ALL((uint32_t)draws->key);
     lanes key_1 = ALL(draws->key >> 32);
-    for (int round = 0; round < ROUNDS; round++) {
+    for (int round = 0; round < SNOW_RANDOM_ROUNDS; round++) {
         for (int i = 0; i < VECTORS; i++) {
-            lanes product_0 = PRODUCT(a[i], ALL(multiplier_0));
-            lanes product_1 = PRODUCT(c[i], ALL(multiplier_1));
+            lanes product_0 = PRODUCT(a[i], ALL(SNOW_RANDOM_MULTIPLIER_0));
+            lanes product_1 = PRODUCT(c[i], ALL(SNOW_RANDOM_MULTIPLIER_1));
             a[i] = XOR(XOR(UPPER(product_1), b[i]), key_0);
             c[i] = XOR(XOR(UPPER(product_0), d[i]), key_1);
             b[i] = product_1;
             d[i] = product_0;
         }
-        key_0 = PLUS(key_0, ALL(weyl_0));
-        key_1 = PLUS(key_1, ALL(weyl_1));
+        key_0 = PLUS(key_0, ALL(SNOW_RANDOM_WEYL_0));
+        key_1 = PLUS(key_1, ALL(SNOW_RANDOM_WEYL_1));
     }
     for (size_t i = 0; i < VECTORS; i++)
         store_pairs(draws->number + 2 * i * LANES, JOIN(b[i], a[i]), JOIN(d[i], c[i]));

@@ -191,8 +191,6 @@ INLINE wide fetch_from(const void *array, wide index)
 }
 #endif
 
-enum { ROUNDS = 10 };
-
 /* Philox, as in draws_kernel.c: the block that each comes to. */
 INLINE void draw(const uint64_t *key, const snow_lanes *walkers, wide number[2])
 {
@@ -200,9 +198,9 @@ INLINE void draw(const uint64_t *key, const snow_lanes *walkers, wide number[2])
     wide b = widened(load(walkers->low));
     wide c = widened(load(walkers->high));
     wide d = every(SNOW_RANDOM_JUMPS);
-    for (int round = 0; round < ROUNDS; round++) {
-        wide product_0 = product(a, every(0xD2511F53));
-        wide product_1 = product(c, every(0xCD9E8D57));
+    for (int round = 0; round < SNOW_RANDOM_ROUNDS; round++) {
+        wide product_0 = product(a, every(SNOW_RANDOM_MULTIPLIER_0));
+        wide product_1 = product(c, every(SNOW_RANDOM_MULTIPLIER_1));
         a = xor(upper_to_lower(product_1), b, every(key[2 * round]));
         c = xor(upper_to_lower(product_0), d, every(key[2 * round + 1]));
         b = product_1;
@@ -212,11 +210,11 @@ INLINE void draw(const uint64_t *key, const snow_lanes *walkers, wide number[2])
     number[1] = joined(d, c);
 }
 
-static void make_keys(uint64_t key[2 * ROUNDS], uint64_t first)
+static void make_keys(uint64_t key[2 * SNOW_RANDOM_ROUNDS], uint64_t first)
 {
-    for (uint32_t round = 0; round < ROUNDS; round++) {
-        key[2 * round] = (uint32_t)first + round * 0x9E3779B9u;
-        key[2 * round + 1] = (uint32_t)(first >> 32) + round * 0xBB67AE85u;
+    for (uint32_t round = 0; round < SNOW_RANDOM_ROUNDS; round++) {
+        key[2 * round] = (uint32_t)first + round * SNOW_RANDOM_WEYL_0;
+        key[2 * round + 1] = (uint32_t)(first >> 32) + round * SNOW_RANDOM_WEYL_1;
     }
 }
 
@@ -348,8 +346,10 @@ INLINE void jump_hexagonal(question *q, wide number)
     const lanes side_r = _mm256_setr_epi32(1, 0, -1, -1, 0, 1, 0, 0);
     lanes side = lower_halves(upper_to_lower(product(number, every(6))));
     lanes offset = offset_of(q);
-    q->x = _mm256_add_epi32(q->x, _mm256_add_epi32(directed(q->radius, corner_q, side), directed(offset, side_q, side)));
-    q->y = _mm256_add_epi32(q->y, _mm256_add_epi32(directed(q->radius, corner_r, side), directed(offset, side_r, side)));
+    lanes x = _mm256_add_epi32(directed(q->radius, corner_q, side), directed(offset, side_q, side));
+    q->x = _mm256_add_epi32(q->x, x);
+    lanes y = _mm256_add_epi32(directed(q->radius, corner_r, side), directed(offset, side_r, side));
+    q->y = _mm256_add_epi32(q->y, y);
 }
 
 INLINE void jump(bool hexagonal, question *q, wide number)
@@ -423,7 +423,7 @@ static uint32_t blocks_left(const snow_squad *squads, int count)
 
 INLINE void walk(const snow_ground *ground, bool hexagonal, snow_squad *squads, int count)
 {
-    uint64_t key[2 * ROUNDS];
+    uint64_t key[2 * SNOW_RANDOM_ROUNDS];
     make_keys(key, squads[0].key);
     uint32_t landed = 0;
     for (uint32_t blocks = blocks_left(squads, count); blocks > 0 && landed == 0; blocks--) {
@@ -455,7 +455,8 @@ void NAME(snow_squads_walk_, SNOW_KERNEL)(const snow_ground *ground, snow_squad 
 }
 
 /* Eight rows of a column at a time: which of them may have changed. */
-INLINE uint32_t find_changed(const snow_ground *ground, const snow_squad *squad, int lane, uint32_t first, uint32_t since)
+INLINE uint32_t find_changed(const snow_ground *ground, const snow_squad *squad, int lane, uint32_t first,
+                             uint32_t since)
 {
     enum { ROW = sizeof(snow_row) / sizeof(int32_t) };
     const lanes eight = _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7);

@@ -1,27 +1,20 @@
 #include "base/random.h"
 
-enum { ROUNDS = 10 };
-
-static const uint32_t multiplier_0 = 0xD2511F53u;
-static const uint32_t multiplier_1 = 0xCD9E8D57u;
-static const uint32_t weyl_0 = 0x9E3779B9u;
-static const uint32_t weyl_1 = 0xBB67AE85u;
-
 snow_random_block snow_random_draw(uint64_t key, snow_random_block counter)
 {
     uint32_t key_0 = (uint32_t)key;
     uint32_t key_1 = (uint32_t)(key >> 32);
-    for (int round = 0; round < ROUNDS; round++) {
-        uint64_t product_0 = (uint64_t)multiplier_0 * counter.word[0];
-        uint64_t product_1 = (uint64_t)multiplier_1 * counter.word[2];
+    for (int round = 0; round < SNOW_RANDOM_ROUNDS; round++) {
+        uint64_t product_0 = (uint64_t)SNOW_RANDOM_MULTIPLIER_0 * counter.word[0];
+        uint64_t product_1 = (uint64_t)SNOW_RANDOM_MULTIPLIER_1 * counter.word[2];
         counter = (snow_random_block){{
             (uint32_t)(product_1 >> 32) ^ counter.word[1] ^ key_0,
             (uint32_t)product_1,
             (uint32_t)(product_0 >> 32) ^ counter.word[3] ^ key_1,
             (uint32_t)product_0,
         }};
-        key_0 += weyl_0;
-        key_1 += weyl_1;
+        key_0 += SNOW_RANDOM_WEYL_0;
+        key_1 += SNOW_RANDOM_WEYL_1;
     }
     return counter;
 }

@@ -11,6 +11,13 @@ typedef struct snow_random_block {
     uint32_t word[4];
 } snow_random_block;
 
+/* Philox's constants, for those who compute several blocks at a time. */
+enum { SNOW_RANDOM_ROUNDS = 10 };
+#define SNOW_RANDOM_MULTIPLIER_0 0xD2511F53u
+#define SNOW_RANDOM_MULTIPLIER_1 0xCD9E8D57u
+#define SNOW_RANDOM_WEYL_0 0x9E3779B9u
+#define SNOW_RANDOM_WEYL_1 0xBB67AE85u
+
 snow_random_block snow_random_draw(uint64_t key, snow_random_block counter);
 
 /* What the numbers are for: streams of different use never meet. */
