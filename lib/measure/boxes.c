@@ -87,7 +87,8 @@ snow_status snow_density(const snow_grid *grid, double *density)
         return SNOW_ERROR_NULL;
     snow_floating floating;
     snow_floating_enter(&floating);
-    *density = density_of(&grid->census);
+    snow_census census = snow_census_of(grid);
+    *density = density_of(&census);
     snow_floating_leave(&floating);
     return SNOW_OK;
 }
