@@ -185,7 +185,8 @@ SNOW_API const char *snow_aggregate_preset_source(size_t index);
  * its time. In the shore scene a hit wears with chance p; clusters that a move
  * brings together, or that stop it, merge with chance p; a disc that does not
  * stick tries to step off by one diameter in a random direction, and stays for
- * another trial where it would overlap.
+ * another trial where it would overlap. A walker makes about 1/p trials, and
+ * nothing interrupts it before it has ended.
  *
  * Fields that can be read in the plane, but not off the lattice:
  * ::SNOW_FIELD_FROZEN (1 where a site is filled; in the shore scene where a cell
