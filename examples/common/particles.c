@@ -101,11 +101,11 @@ static void paint_cells(dots *image, const snow_grid *grid, const snow_aggregate
             if (inside == 0)
                 dots_paint(image, x, y, 1, 1, wall);
             else if (shore && value > 0)
-                dots_paint(image, x, y, 1, 1, value > params->hardness_greatest / 2.0 ? rock : land);
+                dots_paint(image, x, y, 1, 1, dots_dimmed(land, 1 - 0.3 * value / params->hardness_greatest));
         }
     }
     if (shore)
-        dots_paint(image, params->width / 2.0, -1, params->width, 1, rock);
+        dots_paint(image, (params->width - 1) / 2.0, -1, params->width, 1, rock);
 }
 
 static void paint_floor(dots *image, const snow_aggregate_params *params)
