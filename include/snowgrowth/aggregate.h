@@ -195,7 +195,10 @@ SNOW_API const char *snow_aggregate_preset_source(size_t index);
  * site was filled, 0 for seeds). The last needs record_order; with
  * ::SNOW_AGGREGATE_ENGINE_JUMPS all need it but inside. None can be set. The
  * mass follows from them; symmetry defect and pictures (render.h) are for the
- * hexagonal lattice.
+ * hexagonal lattice. Tip radius and bounds are those of all particles; bounds
+ * in space of their x and y, off the lattice of the squares that hold their
+ * centres. In the cluster–cluster scene snow_frozen() is the mass of the largest
+ * cluster.
  *
  * Memory: 8 bytes a particle, and for the walk about 4 more with
  * ::SNOW_AGGREGATE_ENGINE_JUMPS, else a byte for each site of the box about the

@@ -90,7 +90,8 @@ snow_status snow_density(const snow_grid *grid, double *density)
         return status;
     snow_floating floating;
     snow_floating_enter(&floating);
-    *density = density_of(&grid->census);
+    snow_census census = snow_census_of(grid);
+    *density = density_of(&census);
     snow_floating_leave(&floating);
     return SNOW_OK;
 }
