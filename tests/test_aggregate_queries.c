@@ -364,13 +364,15 @@ static void fields_that_are_not_kept_are_refused(void **state)
         bool moves = params.scene == SNOW_AGGREGATE_CLUSTER_CLUSTER;
         bool jumps = params.engine == SNOW_AGGREGATE_ENGINE_AUTO &&
                      (params.scene == SNOW_AGGREGATE_WITTEN_SANDER || params.scene == SNOW_AGGREGATE_LINE);
-        double value;
+        double value, density = -1;
         snow_status frozen = !flat ? SNOW_ERROR_UNSUPPORTED : jumps ? SNOW_ERROR_NOT_RECORDED : SNOW_OK;
         snow_status step = !flat || moves ? SNOW_ERROR_UNSUPPORTED : SNOW_ERROR_NOT_RECORDED;
         assert_status(frozen, snow_cell_value(grid, SNOW_FIELD_FROZEN, 0, 0, &value));
         assert_status(step, snow_cell_value(grid, SNOW_FIELD_FREEZE_STEP, 0, 0, &value));
         assert_status(flat ? SNOW_OK : SNOW_ERROR_UNSUPPORTED, snow_cell_value(grid, SNOW_FIELD_INSIDE, 0, 0, &value));
         assert_status(SNOW_ERROR_UNSUPPORTED, snow_cell_value(grid, SNOW_FIELD_VAPOUR, 0, 0, &value));
+        assert_status(flat ? SNOW_OK : SNOW_ERROR_UNSUPPORTED, snow_density(grid, &density));
+        assert_true(flat ? density >= 0 && density <= 1 : density == -1);
         snow_destroy(grid);
     }
 }

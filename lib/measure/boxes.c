@@ -85,6 +85,9 @@ snow_status snow_density(const snow_grid *grid, double *density)
 {
     if (grid == NULL || density == NULL)
         return SNOW_ERROR_NULL;
+    snow_status status = grid->operations->can_read(grid, SNOW_FIELD_INSIDE);
+    if (status != SNOW_OK)
+        return status;
     snow_floating floating;
     snow_floating_enter(&floating);
     snow_census census = snow_census_of(grid);
