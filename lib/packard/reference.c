@@ -113,7 +113,7 @@ static void move(const reference *from, reference *to)
     for (int64_t r = from->r; r < from->r + from->height; r++) {
         size_t width = (size_t)from->width;
         memcpy(to->frozen + place(to, from->q, r), from->frozen + place(from, from->q, r), width);
-        if (from->date != NULL)
+        if (to->date != NULL)
             memcpy(to->date + place(to, from->q, r), from->date + place(from, from->q, r), width * sizeof *from->date);
     }
 }
