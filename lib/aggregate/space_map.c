@@ -172,6 +172,8 @@ static void start_line(snow_space_line *line)
 
 static snow_status cover(snow_space_map *map, snow_heap *heap, snow_space_box box)
 {
+    if ((uint64_t)box.columns * box.rows * box.layers > SIZE_MAX / sizeof *map->tile)
+        return SNOW_ERROR_TOO_LARGE;
     snow_space_page *_Atomic *tile = snow_heap_get_raw(heap, tiles_of(box), sizeof *tile);
     snow_space_page *cube = snow_heap_get_raw(heap, cubes_of(box), sizeof *cube);
     uint8_t *cube_distance = snow_heap_get_raw(heap, cubes_of(box), 1);
