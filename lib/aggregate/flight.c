@@ -52,24 +52,17 @@ COPIED int ways(snow_aggregate_lattice lattice)
     return lattice == SNOW_AGGREGATE_SQUARE ? 4 : 6;
 }
 
-COPIED const void *find(const snow_ground *ground, snow_aggregate_lattice lattice, snow_site site)
+COPIED uint32_t look(const snow_ground *ground, snow_aggregate_lattice lattice, snow_site site)
 {
     if (lattice == SNOW_AGGREGATE_CUBIC)
-        return snow_space_map_find(&ground->space, site.x, site.y, site.z);
-    return snow_plane_map_find(&ground->plane, site.x, site.y);
-}
-
-COPIED uint32_t look(const void *page, snow_aggregate_lattice lattice, snow_site site)
-{
-    if (lattice == SNOW_AGGREGATE_CUBIC)
-        return snow_space_page_look(page, site.x, site.y, site.z).seen;
-    return snow_plane_page_look(page, site.x, site.y);
+        return snow_space_map_look(&ground->space, site.x, site.y, site.z);
+    return snow_plane_page_look(snow_plane_map_find(&ground->plane, site.x, site.y), site.x, site.y);
 }
 
 COPIED bool has_changed(const snow_ground *ground, snow_aggregate_lattice lattice, snow_site site, uint64_t since)
 {
     if (lattice == SNOW_AGGREGATE_CUBIC)
-        return snow_space_map_find(&ground->space, site.x, site.y, site.z)->changed > since;
+        return snow_space_map_has_changed(&ground->space, site.x, site.y, site.z, since);
     return snow_plane_map_has_changed(&ground->plane, site.x, site.y, since);
 }
 
@@ -203,7 +196,7 @@ COPIED bool trial(const snow_ground *ground, snow_aggregate_lattice lattice, sno
 /* What the walker sees: the class, or, at a special site where it may go on, 256 and what is around. */
 COPIED uint32_t see(const snow_ground *ground, snow_aggregate_lattice lattice, bool careful, snow_site site)
 {
-    uint32_t seen = look(find(ground, lattice, site), lattice, site);
+    uint32_t seen = look(ground, lattice, site);
     return careful && seen == 0 ? 256 + (touched(ground, lattice, site) << 9) : seen;
 }
 
@@ -236,7 +229,7 @@ COPIED snow_site leave_ball(const snow_source_of_walkers *source, manner how, sn
 static bool is_outside(const snow_ground *ground, manner how, snow_site site)
 {
     if (how.lattice == SNOW_AGGREGATE_CUBIC)
-        return snow_space_map_find(&ground->space, site.x, site.y, site.z) == &ground->space.outside;
+        return snow_space_map_find(&ground->space, site.x, site.y, site.z) == SNOW_SPACE_OUTSIDE;
     return snow_plane_map_find(&ground->plane, site.x, site.y) == &ground->plane.outside;
 }
 
