@@ -14,6 +14,7 @@ typedef struct question {
     lanes x, y;
     lanes u, v; /* from the corner of the map; 0 outside */
     lanes inside;
+    lanes tile; /* 0 outside */
     wide page;
     lanes near, is_close;
     wide line;
@@ -22,8 +23,8 @@ typedef struct question {
     wide pick, exit;
 } question;
 
-/* What follows is snow_plane_map_find() and snow_plane_page_look(). The number of the tile: */
-INLINE lanes find_tile(const snow_plane_map *map, question *q)
+/* What follows is snow_plane_map_tile(), snow_plane_map_find() and snow_plane_page_look(). */
+INLINE void find_tile(const snow_plane_map *map, question *q)
 {
     lanes u = _mm256_sub_epi32(q->x, all((uint32_t)map->box.x));
     lanes v = _mm256_sub_epi32(q->y, all((uint32_t)map->box.y));
@@ -34,12 +35,18 @@ INLINE lanes find_tile(const snow_plane_map *map, question *q)
     q->v = _mm256_and_si256(v, q->inside);
     /* Row and column in the halves of a lane. */
     lanes place = _mm256_blend_epi16(_mm256_srli_epi32(q->v, 5), _mm256_slli_epi32(q->u, 11), 0xAA);
-    return _mm256_madd_epi16(place, all(map->box.columns | 1u << 16));
+    q->tile = _mm256_madd_epi16(place, all(map->box.columns | 1u << 16));
+}
+
+/* For diaries: negative outside. */
+INLINE lanes told_by(const question *q)
+{
+    return _mm256_or_si256(q->tile, _mm256_xor_si256(q->inside, all(UINT32_MAX)));
 }
 
 INLINE void find_page(const snow_plane_map *map, question *q)
 {
-    q->page = fetch_from((const void *)map->tile, widened(find_tile(map, q)));
+    q->page = fetch_from((const void *)map->tile, widened(q->tile));
 }
 
 INLINE void look_near(question *q)
@@ -70,6 +77,15 @@ INLINE void look_closely(question *q)
     code = shifted_down(code, bit);
     lanes exact = _mm256_and_si256(_mm256_andnot_si256(lower_halves(code), all(3)), q->is_close);
     q->seen = choose(q->inside, _mm256_max_epu32(q->near, exact), all(SNOW_MAP_BEYOND));
+}
+
+INLINE void look(const snow_plane_map *map, question *q)
+{
+    find_tile(map, q);
+    find_page(map, q);
+    look_near(q);
+    find_line(q);
+    look_closely(q);
 }
 
 /* The class of what is free outside the map: snow_exits_class_near(). */
@@ -163,6 +179,10 @@ INLINE void go_on(const snow_ground *ground, bool hexagonal, question *q, snow_s
         store(row->y, q[i].y);
         store(row->drawn, _mm256_add_epi32(load(squads[i].lanes.drawn), all(half)));
     }
+    EACH(i) {
+        find_tile(&ground->plane, &q[i]);
+        store(snow_squad_tiles(&squads[i], squads[i].next)->tile, told_by(&q[i]));
+    }
     EACH(i) find_page(&ground->plane, &q[i]);
     EACH(i) look_near(&q[i]);
     EACH(i) find_line(&q[i]);
@@ -245,31 +265,42 @@ void SNOW_NAME(snow_squads_walk_, SNOW_KERNEL)(const snow_ground *ground, snow_s
         walk_together(ground, false, squads, count);
 }
 
-/* Eight rows of a column at a time: which of them may have changed. */
-INLINE uint32_t find_changed(const snow_ground *ground, const snow_squad *squad, int lane, uint32_t first,
+/* Eight rows of a column: which of them may have changed. */
+INLINE uint32_t find_changed(const snow_plane_map *map, const snow_squad *squad, int lane, lanes row, lanes counts,
                              uint32_t since)
 {
-    enum { ROW = sizeof(snow_row) / sizeof(int32_t) };
-    const lanes eight = _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7);
-    lanes row = _mm256_and_si256(_mm256_add_epi32(all(first), eight), all(squad->room - 1));
-    lanes at = _mm256_mullo_epi32(row, all(ROW));
+    lanes tile = _mm256_i32gather_epi32(squad->tiles->tile + lane, _mm256_slli_epi32(row, 3), 4);
+    lanes can_change = _mm256_andnot_si256(tile, counts); /* the sign tells */
+    lanes changed = _mm256_mask_i32gather_epi32(all(since), (const int *)map->changed, tile, can_change, 4);
+    lanes is_newer = _mm256_cmpgt_epi32(_mm256_sub_epi32(changed, all(since)), _mm256_setzero_si256());
+    return (uint32_t)_mm256_movemask_ps(_mm256_castsi256_ps(is_newer));
+}
+
+/* Which of them are answered as they were. */
+INLINE uint32_t find_lasting(const snow_ground *ground, const snow_squad *squad, int lane, lanes row)
+{
+    enum { ROW_BITS = 5 };
+    _Static_assert(sizeof(snow_row) == sizeof(int32_t) << ROW_BITS, "rows are found by shifts");
+    lanes at = _mm256_slli_epi32(row, ROW_BITS);
     question q = {.x = _mm256_i32gather_epi32(squad->rows->x + lane, at, 4),
                   .y = _mm256_i32gather_epi32(squad->rows->y + lane, at, 4)};
-    lanes tile = find_tile(&ground->plane, &q);
-    lanes changed = _mm256_i32gather_epi32((const int *)ground->plane.changed, tile, 4);
-    lanes is_newer = _mm256_cmpgt_epi32(_mm256_sub_epi32(changed, all(since)), _mm256_setzero_si256());
-    return (uint32_t)_mm256_movemask_ps(_mm256_castsi256_ps(_mm256_and_si256(is_newer, q.inside)));
+    lanes answer = _mm256_i32gather_epi32((const int *)squad->rows->answer + lane, at, 4);
+    look(&ground->plane, &q);
+    return (uint32_t)_mm256_movemask_ps(_mm256_castsi256_ps(_mm256_cmpeq_epi32(q.seen, answer)));
 }
 
 uint32_t SNOW_NAME(snow_squad_outdated_, SNOW_KERNEL)(const snow_ground *ground, const snow_squad *squad, int lane,
                                                  uint32_t first, uint32_t end, uint64_t since)
 {
-    for (uint32_t row = first; row - first < end - first; row += 8) {
-        uint32_t changed = find_changed(ground, squad, lane, row, (uint32_t)since);
-        for (uint32_t i = 0; changed >> i != 0; i++)
-            if ((changed >> i & 1) != 0 && row + i - first < end - first &&
-                snow_squad_is_outdated(ground, squad, lane, row + i))
-                return row + i;
+    const lanes eight = _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7);
+    for (uint32_t done = 0; done < end - first; done += SNOW_LANES) {
+        lanes row = _mm256_and_si256(_mm256_add_epi32(all(first + done), eight), all(squad->room - 1));
+        lanes counts = _mm256_cmpgt_epi32(all(end - first - done), eight);
+        uint32_t changed = find_changed(&ground->plane, squad, lane, row, counts, (uint32_t)since);
+        if (changed != 0)
+            changed &= ~find_lasting(ground, squad, lane, row);
+        if (changed != 0)
+            return first + done + (uint32_t)__builtin_ctz(changed);
     }
     return end;
 }

@@ -273,18 +273,18 @@ static range tiles_round(const snow_space_box *box, int32_t i, int32_t j, int32_
                     at_most(k + reach, (int32_t)box->layers - 1)}};
 }
 
-static size_t tile_at(const snow_space_map *map, int32_t column, int32_t row, int32_t layer)
+static uint32_t tile_at(const snow_space_map *map, int32_t column, int32_t row, int32_t layer)
 {
-    return snow_space_map_tile(map, (uint32_t)column, (uint32_t)row, (uint32_t)layer);
+    return snow_space_map_number(map, (uint32_t)column, (uint32_t)row, (uint32_t)layer);
 }
 
-static void has_changed(snow_space_map *map, size_t tile)
+static void has_changed(snow_space_map *map, uint32_t tile)
 {
     map->changed[tile] = (uint32_t)map->landing;
 }
 
 /* A tile's own page. */
-static uint32_t page_of(snow_space_map *map, size_t tile)
+static uint32_t page_of(snow_space_map *map, uint32_t tile)
 {
     uint32_t page = SNOW_MAP_GET(map->tile[tile]);
     if (page >= SNOW_SPACE_SHARED)
@@ -297,7 +297,7 @@ static uint32_t page_of(snow_space_map *map, size_t tile)
 }
 
 /* The line of a tile's own page, to be written to. */
-static uint32_t line_of(snow_space_map *map, size_t tile, uint32_t octant)
+static uint32_t line_of(snow_space_map *map, uint32_t tile, uint32_t octant)
 {
     _Atomic uint32_t *link = &map->links[page_of(map, tile)].line[octant];
     uint32_t line = SNOW_MAP_GET(*link);
@@ -308,7 +308,7 @@ static uint32_t line_of(snow_space_map *map, size_t tile, uint32_t octant)
     return line;
 }
 
-static bool holds_special(const snow_space_map *map, size_t tile)
+static bool holds_special(const snow_space_map *map, uint32_t tile)
 {
     uint32_t page = SNOW_MAP_GET(map->tile[tile]);
     return page >= SNOW_SPACE_SHARED && memchr((const void *)&map->near[page], 0, sizeof *map->near) != NULL;
@@ -324,7 +324,7 @@ static uint8_t greatest(sixteen numbers)
 
 /* A layer of 4 x 4 blocks at a time: numbers in a layer are known, and none is
    less than that of the layers. */
-static void lower_page(snow_space_map *map, size_t tile, const int8_t *near_in_layer, int32_t layers)
+static void lower_page(snow_space_map *map, uint32_t tile, const int8_t *near_in_layer, int32_t layers)
 {
     snow_space_near *near = &map->near[page_of(map, tile)];
     enum { WORDS = 16 / sizeof near->word[0] };
@@ -355,7 +355,7 @@ static int32_t apart_from_tile(int32_t block, int32_t tile)
 }
 
 /* Nothing would be nearer in a tile at this distance. */
-static bool is_nearer_everywhere(const snow_space_map *map, size_t tile, int32_t blocks)
+static bool is_nearer_everywhere(const snow_space_map *map, uint32_t tile, int32_t blocks)
 {
     return SNOW_MAP_GET(map->tile[tile]) >= SNOW_SPACE_SHARED && map->most[tile] <= map->near_number[blocks];
 }
@@ -368,7 +368,7 @@ static void spread_near(snow_space_map *map, int32_t i, int32_t j, int32_t k)
         for (int32_t y = tiles.first[1]; y <= tiles.last[1]; y++) {
             int32_t across = at_least(apart_from_tile(j, y), apart_from_tile(k, z));
             for (int32_t x = tiles.first[0]; x <= tiles.last[0]; x++) {
-                size_t tile = tile_at(map, x, y, z);
+                uint32_t tile = tile_at(map, x, y, z);
                 int32_t side = (y - j / 4 + SIDES / 2) * SIDES + x - i / 4 + SIDES / 2;
                 if (!is_nearer_everywhere(map, tile, at_least(apart_from_tile(i, x), across)))
                     lower_page(map, tile, map->near_in_layer[j % 4 * 4 + i % 4][side], 4 * z - k);
@@ -385,7 +385,7 @@ static void spread_tile(snow_space_map *map, int32_t i, int32_t j, int32_t k)
         for (int32_t y = all.first[1]; y <= all.last[1]; y++) {
             uint32_t across = (uint32_t)apart(0, y - j, z - k);
             for (int32_t x = all.first[0]; x <= all.last[0]; x++) {
-                size_t tile = tile_at(map, x, y, z);
+                uint32_t tile = tile_at(map, x, y, z);
                 uint32_t page = SNOW_MAP_GET(map->tile[tile]);
                 uint32_t along = (uint32_t)magnitude(x - i);
                 uint32_t distance = along > across ? along : across;
@@ -404,7 +404,7 @@ static void spread_all_tiles(snow_space_map *map)
     for (uint32_t z = 0; z < map->box.layers; z++)
         for (uint32_t y = 0; y < map->box.rows; y++)
             for (uint32_t x = 0; x < map->box.columns; x++)
-                if (holds_special(map, snow_space_map_tile(map, x, y, z)))
+                if (holds_special(map, snow_space_map_number(map, x, y, z)))
                     spread_tile(map, (int32_t)x, (int32_t)y, (int32_t)z);
 }
 
@@ -417,8 +417,8 @@ static void take_over(snow_space_map *map, const snow_space_map *old)
     for (uint32_t z = 0; z < old->box.layers; z++) {
         for (uint32_t y = 0; y < old->box.rows; y++) {
             for (uint32_t x = 0; x < old->box.columns; x++) {
-                size_t from = snow_space_map_tile(old, x, y, z);
-                size_t to = snow_space_map_tile(map, x + shift_x, y + shift_y, z + shift_z);
+                uint32_t from = snow_space_map_number(old, x, y, z);
+                uint32_t to = snow_space_map_number(map, x + shift_x, y + shift_y, z + shift_z);
                 uint32_t page = SNOW_MAP_GET(old->tile[from]);
                 if (page < SNOW_SPACE_SHARED)
                     continue;
@@ -443,8 +443,7 @@ snow_status snow_space_map_widen(snow_space_map *map, snow_heap *heap, snow_spac
 
 static bool is_covered(const snow_space_map *map, int32_t u, int32_t v, int32_t w)
 {
-    return u >= 0 && v >= 0 && w >= 0 &&
-           snow_space_map_has(map, (uint32_t)u / 16, (uint32_t)v / 16, (uint32_t)w / 16);
+    return (uint32_t)u / 16 < map->box.columns && (uint32_t)v / 16 < map->box.rows && (uint32_t)w / 16 < map->box.layers;
 }
 
 static void add_special(snow_space_map *map, int32_t u, int32_t v, int32_t w)
@@ -454,7 +453,7 @@ static void add_special(snow_space_map *map, int32_t u, int32_t v, int32_t w)
     int32_t i = u / 4;
     int32_t j = v / 4;
     int32_t k = w / 4;
-    size_t tile = tile_at(map, i / 4, j / 4, k / 4);
+    uint32_t tile = tile_at(map, i / 4, j / 4, k / 4);
     uint32_t page = SNOW_MAP_GET(map->tile[tile]);
     if (SNOW_MAP_GET(map->near[page].block[snow_space_place((uint32_t)i, (uint32_t)j, (uint32_t)k)]) == 0)
         return;
@@ -507,7 +506,7 @@ static void lower_lines(snow_space_map *map, int32_t u, int32_t v, int32_t w)
     for (int32_t k = all.first[2]; k <= all.last[2]; k++) {
         for (int32_t j = all.first[1]; j <= all.last[1]; j++) {
             for (int32_t i = all.first[0]; i <= all.last[0]; i++) {
-                size_t tile = tile_at(map, i / 2, j / 2, k / 2);
+                uint32_t tile = tile_at(map, i / 2, j / 2, k / 2);
                 uint32_t line = line_of(map, tile, snow_space_octant((uint32_t)i, (uint32_t)j, (uint32_t)k));
                 if (snow_space_line_lower(&map->line[line], print, i - floor_of(u, 8), 4 * j - floor_of(v, 2),
                                           4 * k - floor_of(w, 2)))
@@ -519,7 +518,7 @@ static void lower_lines(snow_space_map *map, int32_t u, int32_t v, int32_t w)
 
 static void keep_matter(snow_space_map *map, uint32_t u, uint32_t v, uint32_t w, bool obstacle)
 {
-    size_t tile = snow_space_map_tile(map, u / 16, v / 16, w / 16);
+    uint32_t tile = snow_space_map_number(map, u / 16, v / 16, w / 16);
     snow_space_matter *matter = &map->matter[line_of(map, tile, snow_space_octant(u / 8, v / 8, w / 8))];
     uint32_t place = snow_space_place(u, v, w);
     uint32_t block = snow_space_octant(u / 4, v / 4, w / 4);

@@ -85,46 +85,40 @@ bool snow_space_map_has_room(const snow_space_map *map);
 snow_status snow_space_map_reserve(snow_space_map *map, snow_heap *heap);
 void snow_space_map_add(snow_space_map *map, int32_t x, int32_t y, int32_t z, bool obstacle);
 
-static inline bool snow_space_map_has(const snow_space_map *map, uint32_t column, uint32_t row, uint32_t layer)
+static inline uint32_t snow_space_map_number(const snow_space_map *map, uint32_t column, uint32_t row, uint32_t layer)
 {
-    return (column < map->box.columns) & (row < map->box.rows) & (layer < map->box.layers);
+    return (layer * map->box.rows + row) * map->box.columns + column;
 }
 
-static inline size_t snow_space_map_tile(const snow_space_map *map, uint32_t column, uint32_t row, uint32_t layer)
-{
-    return ((size_t)layer * map->box.rows + row) * map->box.columns + column;
-}
-
-/* The page that tells about a site. */
-static inline uint32_t snow_space_map_find(const snow_space_map *map, int32_t x, int32_t y, int32_t z)
+/* The number of the tile with a site; negative outside. */
+static inline int32_t snow_space_map_tile(const snow_space_map *map, int32_t x, int32_t y, int32_t z)
 {
     uint32_t u = ((uint32_t)x - (uint32_t)map->box.x) / 16;
     uint32_t v = ((uint32_t)y - (uint32_t)map->box.y) / 16;
     uint32_t w = ((uint32_t)z - (uint32_t)map->box.z) / 16;
-    bool inside = snow_space_map_has(map, u, v, w);
-    size_t tile = snow_space_map_tile(map, u, v, w);
-    uint32_t page = SNOW_MAP_GET_ADDRESS(map->tile[inside ? tile : 0]);
-    return inside ? page : SNOW_SPACE_OUTSIDE;
+    bool inside = (u < map->box.columns) & (v < map->box.rows) & (w < map->box.layers);
+    return inside ? (int32_t)snow_space_map_number(map, u, v, w) : -1;
+}
+
+/* The page that tells about a tile. */
+static inline uint32_t snow_space_map_find(const snow_space_map *map, int32_t tile)
+{
+    uint32_t page = SNOW_MAP_GET_ADDRESS(map->tile[tile < 0 ? 0 : tile]);
+    return tile < 0 ? SNOW_SPACE_OUTSIDE : page;
 }
 
 /* Whether an answer there may have changed since that landing, one of the last 2^31. */
-static inline bool snow_space_map_has_changed(const snow_space_map *map, int32_t x, int32_t y, int32_t z,
-                                              uint64_t since)
+static inline bool snow_space_map_has_changed(const snow_space_map *map, int32_t tile, uint64_t since)
 {
-    uint32_t u = ((uint32_t)x - (uint32_t)map->box.x) / 16;
-    uint32_t v = ((uint32_t)y - (uint32_t)map->box.y) / 16;
-    uint32_t w = ((uint32_t)z - (uint32_t)map->box.z) / 16;
-    return snow_space_map_has(map, u, v, w) &&
-           (int32_t)(map->changed[snow_space_map_tile(map, u, v, w)] - (uint32_t)since) > 0;
+    return tile >= 0 && (int32_t)(map->changed[tile] - (uint32_t)since) > 0;
 }
 
 /* 0: special; else a class; SNOW_MAP_BEYOND. */
-static inline uint32_t snow_space_map_look(const snow_space_map *map, int32_t x, int32_t y, int32_t z)
+static inline uint32_t snow_space_map_look(const snow_space_map *map, uint32_t page, int32_t x, int32_t y, int32_t z)
 {
     uint32_t u = (uint32_t)x; /* boxes begin at multiples of 16 */
     uint32_t v = (uint32_t)y;
     uint32_t w = (uint32_t)z;
-    uint32_t page = snow_space_map_find(map, x, y, z);
     uint32_t near = SNOW_MAP_GET(map->near[page].block[snow_space_place(u / 4, v / 4, w / 4)]);
     if (near >= SNOW_SPACE_LOOK)
         return near;
@@ -138,7 +132,7 @@ static inline int snow_space_map_matter(const snow_space_map *map, int32_t x, in
     uint32_t u = (uint32_t)x;
     uint32_t v = (uint32_t)y;
     uint32_t w = (uint32_t)z;
-    uint32_t page = snow_space_map_find(map, x, y, z);
+    uint32_t page = snow_space_map_find(map, snow_space_map_tile(map, x, y, z));
     uint32_t line = SNOW_MAP_GET_ADDRESS(map->links[page].line[snow_space_octant(u / 8, v / 8, w / 8)]);
     const snow_space_matter *matter = &map->matter[line];
     uint32_t block = snow_space_octant(u / 4, v / 4, w / 4);
