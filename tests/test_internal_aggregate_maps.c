@@ -146,7 +146,8 @@ static int32_t tile_of(const world *self, snow_site site)
 static uint32_t look(const world *self, snow_site site)
 {
     if (self->lattice == SNOW_AGGREGATE_CUBIC)
-        return snow_space_page_look(snow_space_map_find(&self->space, tile_of(self, site)), site.x, site.y, site.z).seen;
+        return snow_space_map_look(&self->space, snow_space_map_find(&self->space, tile_of(self, site)), site.x, site.y,
+                                   site.z);
     return snow_plane_page_look(snow_plane_map_find(&self->plane, tile_of(self, site)), site.x, site.y);
 }
 

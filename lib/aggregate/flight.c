@@ -62,7 +62,7 @@ COPIED int32_t tile_at(const snow_ground *ground, snow_aggregate_lattice lattice
 COPIED uint32_t look(const snow_ground *ground, snow_aggregate_lattice lattice, int32_t tile, snow_site site)
 {
     if (lattice == SNOW_AGGREGATE_CUBIC)
-        return snow_space_page_look(snow_space_map_find(&ground->space, tile), site.x, site.y, site.z).seen;
+        return snow_space_map_look(&ground->space, snow_space_map_find(&ground->space, tile), site.x, site.y, site.z);
     return snow_plane_page_look(snow_plane_map_find(&ground->plane, tile), site.x, site.y);
 }
 
@@ -251,9 +251,13 @@ COPIED snow_site drift(const snow_ground *ground, manner how, snow_site site, sn
 /* From outside the map until it is inside again. No cluster can change that. */
 COPIED snow_site come_in(const snow_ground *ground, manner how, snow_site site, snow_draws *draws)
 {
+    if (how.lattice == SNOW_AGGREGATE_CUBIC)
+        snow_draws_end_block(draws);
     do
         site = drift(ground, how, site, draws);
     while (tile_at(ground, how.lattice, site) < 0);
+    if (how.lattice == SNOW_AGGREGATE_CUBIC)
+        snow_draws_end_block(draws);
     return site;
 }
 
@@ -387,7 +391,9 @@ static void help(const snow_ground *ground, snow_flight *flight, uint32_t seen)
 {
     manner how = manner_of(ground);
     snow_site site = site_of(flight, how);
-    if (seen == SNOW_MAP_BEYOND)
+    if (seen == SNOW_MAP_BEYOND && how.lattice == SNOW_AGGREGATE_CUBIC)
+        site = come_in(ground, how, site, &flight->draws);
+    else if (seen == SNOW_MAP_BEYOND)
         site = drift(ground, how, site, &flight->draws);
     else
         site = leave(ground, how, site, seen, &flight->draws);
@@ -407,6 +413,7 @@ void snow_squad_help(const snow_ground *ground, snow_squad *squad, uint32_t stil
         snow_flight *flight = &squad->flight[lane];
         flight->x = squad->lanes.x[lane];
         flight->y = squad->lanes.y[lane];
+        flight->z = squad->lanes.z[lane];
         snow_draws_move(&flight->draws, squad->lanes.drawn[lane]);
         help(ground, flight, row->answer[lane]);
         snow_squad_enter(squad, lane);
