@@ -27,9 +27,18 @@
 enum { SNOW_PLANE_MARGIN = 96 };
 
 /* Three less the distance of each site, two bits each. */
-typedef struct snow_plane_line {
+typedef union snow_plane_line {
     _Atomic uint32_t row[16];
+    _Atomic uint64_t two_rows[8];
 } snow_plane_line;
+
+/* What a filled site does to as many words of a line, one below the other. */
+enum { SNOW_PLANE_PRINT = 8 };
+
+typedef union snow_plane_print {
+    uint32_t row[SNOW_PLANE_PRINT];
+    uint64_t two_rows[SNOW_PLANE_PRINT / 2];
+} snow_plane_print;
 
 /* The same where it matters which sites are filled and which are obstacles: a bit a site. */
 typedef struct snow_plane_matter {
@@ -64,7 +73,7 @@ typedef struct snow_plane_map {
     snow_pool lines; /* with matter, if that is kept */
     bool keeps_matter;
     snow_aggregate_lattice lattice;
-    uint32_t print[16][7][3]; /* for each place in a row: what a filled site does to the rows round it */
+    snow_plane_print print[2][16][3]; /* of a site in an odd row or not, at this place of a word: left, here, right */
     snow_halos *halos;
     uint64_t landing;         /* for pages that change now */
     snow_plane_page outside;  /* stands for all places where the map ends */
