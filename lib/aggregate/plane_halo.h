@@ -17,6 +17,10 @@
 
 #include <string.h>
 
+#if defined(__SSE2__)
+#include <emmintrin.h>
+#endif
+
 enum {
     SNOW_HALO_BLOCK_SIZES = 3, /* of cells: 2, 4, 8 */
     SNOW_HALO_TILE_SIZES = 6,  /* 16 ... 512 */
@@ -80,6 +84,17 @@ static inline snow_halo_group snow_halo_group_of(uint64_t first, uint64_t second
     return (snow_halo_group)(snow_halo_halves){first, second};
 }
 
+#if defined(__SSE2__)
+static inline snow_halo_group snow_halo_greater(snow_halo_group a, snow_halo_group b)
+{
+    return (snow_halo_group)_mm_max_epu8((__m128i)a, (__m128i)b);
+}
+
+static inline snow_halo_group snow_halo_lesser(snow_halo_group a, snow_halo_group b)
+{
+    return (snow_halo_group)_mm_min_epu8((__m128i)a, (__m128i)b);
+}
+#else
 static inline snow_halo_group snow_halo_greater(snow_halo_group a, snow_halo_group b)
 {
     snow_halo_group choose = a > b;
@@ -90,6 +105,14 @@ static inline snow_halo_group snow_halo_lesser(snow_halo_group a, snow_halo_grou
 {
     snow_halo_group choose = a < b;
     return (a & choose) | (b & ~choose);
+}
+#endif
+
+/* Whether one of them is not 0. */
+static inline bool snow_halo_has_any(snow_halo_group group)
+{
+    snow_halo_halves half = (snow_halo_halves)group;
+    return (half[0] | half[1]) != 0;
 }
 
 /* What it says about a row of places that begins with place (x, y), counted from its corner. */

@@ -172,7 +172,8 @@ static size_t tile_at(const snow_plane_map *map, int64_t column, int64_t row)
 /* The page is not touched to learn that: it may be far from the processor. */
 static bool has_own_page(const snow_plane_map *map, size_t tile)
 {
-    return SNOW_MAP_GET(map->tile[tile]) != &map->far[map->tile_class[tile]];
+    uintptr_t from_far = (uintptr_t)SNOW_MAP_GET(map->tile[tile]) - (uintptr_t)map->far;
+    return from_far >= sizeof map->far;
 }
 
 static snow_plane_page *page_of(snow_plane_map *map, size_t tile)
@@ -238,10 +239,9 @@ static bool tiles_hold_special(const snow_plane_map *map, uint32_t u, uint32_t v
     return false;
 }
 
+/* Of a kind from 1 on. */
 static bool cell_holds_special(const snow_plane_map *map, uint32_t u, uint32_t v, int kind)
 {
-    if (kind == 0)
-        return pair_holds_special(known_page(map, u, v), u, v);
     if (kind <= 3)
         return blocks_hold_special(known_page(map, u, v), u, v, kind);
     return tiles_hold_special(map, u, v, kind);
@@ -252,18 +252,20 @@ typedef struct part {
     int64_t first_column, last_column, first_row, last_row;
 } part;
 
-/* On which sides of a cell of this size the next one holds a special site. */
+/* On which sides of a cell the next one of its size is known to hold a special site. */
 typedef struct company {
     bool left, right, below, above;
 } company;
 
-static company company_of(const snow_plane_map *map, uint32_t u, uint32_t v, int kind)
+/* What is known of the smallest cell is true of all that begin to hold special sites with it: the next one is
+   that of the same site beside it. For larger ones it pays to look. */
+static company company_of(const snow_plane_map *map, uint32_t u, uint32_t v, int kind, company known)
 {
     uint32_t size = snow_halo_size(kind);
-    return (company){u >= size && cell_holds_special(map, u - size, v, kind),
-                     u + size < map->width && cell_holds_special(map, u + size, v, kind),
-                     v >= size && cell_holds_special(map, u, v - size, kind),
-                     v + size < map->height && cell_holds_special(map, u, v + size, kind)};
+    return (company){known.left || (u >= size && cell_holds_special(map, u - size, v, kind)),
+                     known.right || (u + size < map->width && cell_holds_special(map, u + size, v, kind)),
+                     known.below || (v >= size && cell_holds_special(map, u, v - size, kind)),
+                     known.above || (v + size < map->height && cell_holds_special(map, u, v + size, kind))};
 }
 
 /* The places that may learn something from a cell that begins in place (i, j). To
@@ -286,17 +288,21 @@ static part clip(part all, int64_t columns, int64_t rows)
 static bool lower_page(snow_plane_page *page, const snow_halo *halo, int x, int y)
 {
     enum { GROUPS = 4 };
-    snow_halo_group known[GROUPS];
     snow_halo_group now[GROUPS];
-    uint64_t row[8];
-    memcpy(known, (const void *)page->near, sizeof known); /* nobody else writes */
-    for (int i = 0; i < GROUPS; i++)
-        now[i] = snow_halo_lesser(known[i], snow_halo_rows(halo, x, y + 2 * i));
-    if (memcmp(now, known, sizeof now) == 0)
+    snow_halo_group changed = {0};
+    for (int i = 0; i < GROUPS; i++) {
+        snow_halo_group known;
+        memcpy(&known, (const void *)&page->near_row[2 * i], sizeof known); /* nobody else writes */
+        now[i] = snow_halo_lesser(known, snow_halo_rows(halo, x, y + 2 * i));
+        changed |= now[i] ^ known;
+    }
+    if (!snow_halo_has_any(changed))
         return false;
-    memcpy(row, now, sizeof row);
-    for (int i = 0; i < 8; i++)
-        SNOW_MAP_PUT(page->near_row[i], row[i]);
+    for (int i = 0; i < GROUPS; i++) {
+        snow_halo_halves rows = (snow_halo_halves)now[i];
+        SNOW_MAP_PUT(page->near_row[2 * i], rows[0]);
+        SNOW_MAP_PUT(page->near_row[2 * i + 1], rows[1]);
+    }
     return true;
 }
 
@@ -341,7 +347,7 @@ static void spread_to_tiles(snow_plane_map *map, const snow_halo *halo, company 
             snow_halo_group known;
             memcpy(&known, &map->tile_class[tile], sizeof known);
             snow_halo_group now = snow_halo_lesser(known, snow_halo_row(halo, x, y));
-            if (memcmp(&now, &known, sizeof now) != 0)
+            if (snow_halo_has_any(now ^ known))
                 set_tile_classes(map, tile, known, now);
         }
     }
@@ -360,19 +366,20 @@ static void spread(snow_plane_map *map, uint32_t u, uint32_t v, int kind, compan
 }
 
 /* The smallest cell had none, and perhaps larger ones had none. */
-static SNOW_APART void add_first_special(snow_plane_map *map, uint32_t u, uint32_t v)
+static SNOW_APART void add_first_special(snow_plane_map *map, uint32_t u, uint32_t v, company known)
 {
     int kinds = 1;
     while (kinds < SNOW_HALO_SIZES && !cell_holds_special(map, u, v, kinds))
         kinds++;
-    for (int kind = 0; kind < kinds; kind++)
-        spread(map, u, v, kind, company_of(map, u, v, kind));
+    spread(map, u, v, 0, known);
+    for (int kind = 1; kind < kinds; kind++)
+        spread(map, u, v, kind, company_of(map, u, v, kind, known));
 }
 
-static void add_special(snow_plane_map *map, uint32_t u, uint32_t v)
+static void add_special(snow_plane_map *map, uint32_t u, uint32_t v, company known)
 {
     if (u < map->width && v < map->height && !pair_holds_special(known_page(map, u, v), u, v))
-        add_first_special(map, u, v);
+        add_first_special(map, u, v, known);
 }
 
 /* Tiles move to the new box. */
@@ -458,16 +465,19 @@ static void add_prints(snow_plane_map *map, int64_t u, int64_t v)
     }
 }
 
-/* A filled site and its neighbours lie in three cells of 2 sites a side; on the hexagonal lattice in four, if... */
+/* A filled site and its neighbours lie in its own smallest cell, one beside it, and one above or below; on the
+   hexagonal lattice perhaps in the one beside both. */
 static void add_contacts(snow_plane_map *map, uint32_t u, uint32_t v)
 {
-    uint32_t beside = u % 2 == 0 ? u - 1 : u + 1;
-    uint32_t above = v % 2 == 0 ? v - 1 : v + 1;
-    add_special(map, u, v);
-    add_special(map, beside, v);
-    add_special(map, u, above);
-    if (map->lattice == SNOW_AGGREGATE_HEXAGONAL && u % 2 != v % 2)
-        add_special(map, beside, above);
+    bool is_left = u % 2 != 0; /* its own cell is left of the other */
+    bool is_below = v % 2 != 0;
+    uint32_t other_u = is_left ? u + 1 : u - 1;
+    uint32_t other_v = is_below ? v + 1 : v - 1;
+    add_special(map, u, v, (company){false, false, false, false});
+    add_special(map, other_u, v, (company){is_left, !is_left, false, false});
+    add_special(map, u, other_v, (company){false, false, is_below, !is_below});
+    if (map->lattice == SNOW_AGGREGATE_HEXAGONAL && is_left != is_below)
+        add_special(map, other_u, other_v, (company){is_left, !is_left, is_below, !is_below});
 }
 
 void snow_plane_map_add(snow_plane_map *map, int32_t x, int32_t y, bool obstacle)

@@ -18,9 +18,9 @@ static snow_status widen(snow_pool *pool, snow_heap *heap)
     return SNOW_OK;
 }
 
-snow_status snow_pool_reserve(snow_pool *pool, snow_heap *heap, size_t more)
+snow_status snow_pool_fill(snow_pool *pool, snow_heap *heap, size_t more)
 {
-    while (pool->chunks * CHUNK < pool->count + more) {
+    while (pool->ready < pool->count + more) {
         snow_status status = pool->chunks == pool->room ? widen(pool, heap) : SNOW_OK;
         if (status != SNOW_OK)
             return status;
@@ -28,6 +28,7 @@ snow_status snow_pool_reserve(snow_pool *pool, snow_heap *heap, size_t more)
         if (chunk == NULL)
             return heap->refusal;
         pool->chunk[pool->chunks++] = chunk;
+        pool->ready += CHUNK;
     }
     return SNOW_OK;
 }

@@ -10,12 +10,19 @@ typedef struct snow_pool {
     char **chunk;
     size_t item; /* bytes */
     size_t count;
+    size_t ready; /* in chunks */
     size_t chunks;
     size_t room; /* for addresses of chunks */
 } snow_pool;
 
+/* Makes `more` items ready. */
+snow_status snow_pool_fill(snow_pool *pool, snow_heap *heap, size_t more);
+
 /* Makes sure that `more` items can be taken. */
-snow_status snow_pool_reserve(snow_pool *pool, snow_heap *heap, size_t more);
+static inline snow_status snow_pool_reserve(snow_pool *pool, snow_heap *heap, size_t more)
+{
+    return pool->ready - pool->count >= more ? SNOW_OK : snow_pool_fill(pool, heap, more);
+}
 
 /* The next item, zeroed; it was reserved. */
 void *snow_pool_take(snow_pool *pool);
