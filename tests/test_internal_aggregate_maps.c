@@ -136,19 +136,25 @@ static void add(world *self, snow_site site, uint64_t landing)
     }
 }
 
+static int32_t tile_of(const world *self, snow_site site)
+{
+    if (self->lattice == SNOW_AGGREGATE_CUBIC)
+        return snow_space_map_tile(&self->space, site.x, site.y, site.z);
+    return snow_plane_map_tile(&self->plane, site.x, site.y);
+}
+
 static uint32_t look(const world *self, snow_site site)
 {
     if (self->lattice == SNOW_AGGREGATE_CUBIC)
-        return snow_space_page_look(snow_space_map_find(&self->space, site.x, site.y, site.z), site.x, site.y, site.z)
-            .seen;
-    return snow_plane_page_look(snow_plane_map_find(&self->plane, site.x, site.y), site.x, site.y);
+        return snow_space_page_look(snow_space_map_find(&self->space, tile_of(self, site)), site.x, site.y, site.z).seen;
+    return snow_plane_page_look(snow_plane_map_find(&self->plane, tile_of(self, site)), site.x, site.y);
 }
 
 static bool has_changed(const world *self, snow_site site, uint64_t since)
 {
     if (self->lattice == SNOW_AGGREGATE_CUBIC)
-        return snow_space_map_find(&self->space, site.x, site.y, site.z)->changed > since;
-    return snow_plane_map_has_changed(&self->plane, site.x, site.y, since);
+        return snow_space_map_has_changed(&self->space, tile_of(self, site), since);
+    return snow_plane_map_has_changed(&self->plane, tile_of(self, site), since);
 }
 
 static snow_site place(const world *self, uint32_t *number, int32_t reach)

@@ -28,14 +28,17 @@ snow_status snow_ahead_start(snow_ahead *ahead, snow_heap *heap, int threads, bo
     ahead->voyage = snow_heap_get(heap, window, sizeof *ahead->voyage);
     ahead->party = snow_heap_get(heap, (size_t)threads, sizeof *ahead->party);
     ahead->rows = snow_heap_get(heap, rings * room, sizeof *ahead->rows);
+    ahead->tiles = snow_heap_get(heap, rings * room, sizeof *ahead->tiles);
     ahead->heights = space ? snow_heap_get(heap, rings * room, sizeof *ahead->heights) : NULL;
-    if (ahead->voyage == NULL || ahead->party == NULL || ahead->rows == NULL || (space && ahead->heights == NULL)) {
+    if (ahead->voyage == NULL || ahead->party == NULL || ahead->rows == NULL || ahead->tiles == NULL ||
+        (space && ahead->heights == NULL)) {
         snow_ahead_end(ahead, heap);
         return heap->refusal;
     }
     for (size_t i = 0; i < rings; i++) {
         snow_squad *squad = &ahead->party[i / (size_t)squads].squad[i % (size_t)squads];
         squad->rows = ahead->rows + i * room;
+        squad->tiles = ahead->tiles + i * room;
         squad->heights = space ? ahead->heights + i * room : NULL;
         squad->room = room;
     }
@@ -50,10 +53,12 @@ snow_status snow_ahead_start(snow_ahead *ahead, snow_heap *heap, int threads, bo
 void snow_ahead_end(snow_ahead *ahead, snow_heap *heap)
 {
     snow_heap_put(heap, ahead->heights);
+    snow_heap_put(heap, ahead->tiles);
     snow_heap_put(heap, ahead->rows);
     snow_heap_put(heap, ahead->party);
     snow_heap_put(heap, ahead->voyage);
     ahead->heights = NULL;
+    ahead->tiles = NULL;
     ahead->rows = NULL;
     ahead->party = NULL;
     ahead->voyage = NULL;

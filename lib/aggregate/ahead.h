@@ -52,6 +52,7 @@ typedef bool (*snow_landing)(void *context, uint64_t walker, snow_site site);
 typedef struct snow_ahead {
     snow_voyage *voyage; /* a ring */
     snow_row *rows;
+    snow_tiles *tiles;
     snow_heights *heights;
     snow_party *party;
     uint64_t window; /* so many walkers are out at a time; 0: not started */

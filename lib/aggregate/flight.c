@@ -52,25 +52,25 @@ COPIED int ways(snow_aggregate_lattice lattice)
     return lattice == SNOW_AGGREGATE_SQUARE ? 4 : 6;
 }
 
-COPIED const void *find(const snow_ground *ground, snow_aggregate_lattice lattice, snow_site site)
+COPIED int32_t tile_at(const snow_ground *ground, snow_aggregate_lattice lattice, snow_site site)
 {
     if (lattice == SNOW_AGGREGATE_CUBIC)
-        return snow_space_map_find(&ground->space, site.x, site.y, site.z);
-    return snow_plane_map_find(&ground->plane, site.x, site.y);
+        return snow_space_map_tile(&ground->space, site.x, site.y, site.z);
+    return snow_plane_map_tile(&ground->plane, site.x, site.y);
 }
 
-COPIED uint32_t look(const void *page, snow_aggregate_lattice lattice, snow_site site)
+COPIED uint32_t look(const snow_ground *ground, snow_aggregate_lattice lattice, int32_t tile, snow_site site)
 {
     if (lattice == SNOW_AGGREGATE_CUBIC)
-        return snow_space_page_look(page, site.x, site.y, site.z).seen;
-    return snow_plane_page_look(page, site.x, site.y);
+        return snow_space_page_look(snow_space_map_find(&ground->space, tile), site.x, site.y, site.z).seen;
+    return snow_plane_page_look(snow_plane_map_find(&ground->plane, tile), site.x, site.y);
 }
 
-COPIED bool has_changed(const snow_ground *ground, snow_aggregate_lattice lattice, snow_site site, uint64_t since)
+COPIED bool has_changed(const snow_ground *ground, snow_aggregate_lattice lattice, int32_t tile, uint64_t since)
 {
     if (lattice == SNOW_AGGREGATE_CUBIC)
-        return snow_space_map_find(&ground->space, site.x, site.y, site.z)->changed > since;
-    return snow_plane_map_has_changed(&ground->plane, site.x, site.y, since);
+        return snow_space_map_has_changed(&ground->space, tile, since);
+    return snow_plane_map_has_changed(&ground->plane, tile, since);
 }
 
 COPIED int matter(const snow_ground *ground, snow_aggregate_lattice lattice, snow_site site)
@@ -201,9 +201,10 @@ COPIED bool trial(const snow_ground *ground, snow_aggregate_lattice lattice, sno
 }
 
 /* What the walker sees: the class, or, at a special site where it may go on, 256 and what is around. */
-COPIED uint32_t see(const snow_ground *ground, snow_aggregate_lattice lattice, bool careful, snow_site site)
+COPIED uint32_t see(const snow_ground *ground, snow_aggregate_lattice lattice, bool careful, int32_t tile,
+                    snow_site site)
 {
-    uint32_t seen = look(find(ground, lattice, site), lattice, site);
+    uint32_t seen = look(ground, lattice, tile, site);
     return careful && seen == 0 ? 256 + (touched(ground, lattice, site) << 9) : seen;
 }
 
@@ -233,13 +234,6 @@ COPIED snow_site leave_ball(const snow_source_of_walkers *source, manner how, sn
     return how.in_vessel ? fold(source, how.lattice, site) : site;
 }
 
-static bool is_outside(const snow_ground *ground, manner how, snow_site site)
-{
-    if (how.lattice == SNOW_AGGREGATE_CUBIC)
-        return snow_space_map_find(&ground->space, site.x, site.y, site.z) == &ground->space.outside;
-    return snow_plane_map_find(&ground->plane, site.x, site.y) == &ground->plane.outside;
-}
-
 /* A turn outside the map. */
 COPIED snow_site drift(const snow_ground *ground, manner how, snow_site site, snow_draws *draws)
 {
@@ -259,7 +253,7 @@ COPIED snow_site come_in(const snow_ground *ground, manner how, snow_site site, 
 {
     do
         site = drift(ground, how, site, draws);
-    while (is_outside(ground, how, site));
+    while (tile_at(ground, how.lattice, site) < 0);
     return site;
 }
 
@@ -291,8 +285,10 @@ COPIED void put_at(snow_flight *flight, manner how, snow_site site)
         flight->z = site.z;
 }
 
-COPIED void note(const snow_squad *squad, int lane, manner how, const snow_flight *flight, uint32_t answer)
+COPIED void note(const snow_squad *squad, int lane, manner how, const snow_flight *flight, int32_t tile,
+                 uint32_t answer)
 {
+    snow_squad_tiles(squad, squad->next)->tile[lane] = tile;
     snow_row *row = snow_squad_row(squad, squad->next);
     row->x[lane] = flight->x;
     row->y[lane] = flight->y;
@@ -310,8 +306,9 @@ COPIED void all_go_on(const snow_ground *ground, manner how, snow_squad *squad)
             continue;
         snow_flight *flight = &squad->flight[lane];
         snow_site site = site_of(flight, how);
-        uint32_t answer = see(ground, how.lattice, how.careful, site);
-        note(squad, lane, how, flight, answer);
+        int32_t tile = tile_at(ground, how.lattice, site);
+        uint32_t answer = see(ground, how.lattice, how.careful, tile, site);
+        note(squad, lane, how, flight, tile, answer);
         if (RARE(advance(ground, how, &site, &flight->draws, answer)))
             squad->landed |= 1u << lane;
         put_at(flight, how, site);
@@ -356,7 +353,7 @@ snow_site snow_flight_finish(const snow_ground *ground, snow_flight *flight)
     manner how = manner_of(ground);
     snow_site site = site_of(flight, how);
     while (!flight->landed) {
-        uint32_t answer = see(ground, how.lattice, how.careful, site);
+        uint32_t answer = see(ground, how.lattice, how.careful, tile_at(ground, how.lattice, site), site);
         flight->asked++;
         flight->landed = advance(ground, how, &site, &flight->draws, answer);
     }
@@ -416,19 +413,20 @@ void snow_squad_help(const snow_ground *ground, snow_squad *squad, uint32_t stil
     }
 }
 
-bool snow_squad_is_outdated(const snow_ground *ground, const snow_squad *squad, int lane, uint32_t row)
+static bool is_outdated(const snow_ground *ground, const snow_squad *squad, int lane, uint32_t row)
 {
     manner how = manner_of(ground);
+    int32_t tile = snow_squad_tiles(squad, row)->tile[lane];
     snow_site site = snow_squad_asked(squad, lane, row).site;
-    return see(ground, how.lattice, how.careful, site) != snow_squad_row(squad, row)->answer[lane];
+    return see(ground, how.lattice, how.careful, tile, site) != snow_squad_row(squad, row)->answer[lane];
 }
 
 uint32_t snow_squad_outdated(const snow_ground *ground, const snow_squad *squad, int lane, uint32_t first, uint32_t end,
                              uint64_t since)
 {
     for (uint32_t row = first; row != end; row++)
-        if (RARE(has_changed(ground, ground->exits.lattice, snow_squad_asked(squad, lane, row).site, since)) &&
-            snow_squad_is_outdated(ground, squad, lane, row))
+        if (RARE(has_changed(ground, ground->exits.lattice, snow_squad_tiles(squad, row)->tile[lane], since)) &&
+            is_outdated(ground, squad, lane, row))
             return row;
     return end;
 }

@@ -98,23 +98,26 @@ static inline const snow_plane_page *snow_plane_map_page(const snow_plane_map *m
     return SNOW_MAP_GET_ADDRESS(map->tile[(size_t)(v / 32) * map->box.columns + u / 32]);
 }
 
-/* The page that tells about a site. */
-static inline const snow_plane_page *snow_plane_map_find(const snow_plane_map *map, int32_t x, int32_t y)
+/* The number of the tile that a site lies in; negative outside the box. */
+static inline int32_t snow_plane_map_tile(const snow_plane_map *map, int32_t x, int32_t y)
 {
     uint32_t u = (uint32_t)x - (uint32_t)map->box.x;
     uint32_t v = (uint32_t)y - (uint32_t)map->box.y;
     bool inside = (u < map->width) & (v < map->height);
-    const snow_plane_page *page = snow_plane_map_page(map, inside ? u : 0, inside ? v : 0);
-    return inside ? page : &map->outside;
+    return inside ? (int32_t)(v / 32 * map->box.columns + u / 32) : -1;
+}
+
+/* The page that tells about a tile. */
+static inline const snow_plane_page *snow_plane_map_find(const snow_plane_map *map, int32_t tile)
+{
+    const snow_plane_page *page = SNOW_MAP_GET_ADDRESS(map->tile[tile < 0 ? 0 : tile]);
+    return tile < 0 ? &map->outside : page;
 }
 
 /* Whether an answer there may have changed since that landing, one of the last 2^31. */
-static inline bool snow_plane_map_has_changed(const snow_plane_map *map, int32_t x, int32_t y, uint64_t since)
+static inline bool snow_plane_map_has_changed(const snow_plane_map *map, int32_t tile, uint64_t since)
 {
-    uint32_t u = (uint32_t)x - (uint32_t)map->box.x;
-    uint32_t v = (uint32_t)y - (uint32_t)map->box.y;
-    return u < map->width && v < map->height &&
-           (int32_t)(map->changed[(size_t)(v / 32) * map->box.columns + u / 32] - (uint32_t)since) > 0;
+    return tile >= 0 && (int32_t)(map->changed[tile] - (uint32_t)since) > 0;
 }
 
 /* 0: special; else a class; SNOW_MAP_BEYOND. */

@@ -121,15 +121,27 @@ static inline uint32_t snow_space_place(uint32_t x, uint32_t y, uint32_t z)
     return (z & 3) << 4 | (y & 3) << 2 | (x & 3);
 }
 
-/* The page that tells about a site. */
-static inline const snow_space_page *snow_space_map_find(const snow_space_map *map, int32_t x, int32_t y, int32_t z)
+/* The number of the tile that a site lies in; negative outside the box. */
+static inline int32_t snow_space_map_tile(const snow_space_map *map, int32_t x, int32_t y, int32_t z)
 {
     uint32_t u = ((uint32_t)x - (uint32_t)map->box.x) / 16;
     uint32_t v = ((uint32_t)y - (uint32_t)map->box.y) / 16;
     uint32_t w = ((uint32_t)z - (uint32_t)map->box.z) / 16;
     bool inside = (u < map->box.columns) & (v < map->box.rows) & (w < map->box.layers);
-    const snow_space_page *page = snow_space_map_page(map, inside ? u : 0, inside ? v : 0, inside ? w : 0);
-    return inside ? page : &map->outside;
+    return inside ? (int32_t)((w * map->box.rows + v) * map->box.columns + u) : -1;
+}
+
+/* The page that tells about a tile. */
+static inline const snow_space_page *snow_space_map_find(const snow_space_map *map, int32_t tile)
+{
+    const snow_space_page *page = SNOW_MAP_GET_ADDRESS(map->tile[tile < 0 ? 0 : tile]);
+    return tile < 0 ? &map->outside : page;
+}
+
+/* Whether an answer there may have changed since that landing. */
+static inline bool snow_space_map_has_changed(const snow_space_map *map, int32_t tile, uint64_t since)
+{
+    return snow_space_map_find(map, tile)->changed > since;
 }
 
 /* 0: special; else a class; SNOW_MAP_BEYOND. */

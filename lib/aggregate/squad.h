@@ -19,6 +19,11 @@ typedef struct snow_row {
     uint32_t drawn[SNOW_LANES];
 } snow_row;
 
+/* Where they were told so: what may have changed is found by tiles, so these are close together. */
+typedef struct snow_tiles {
+    _Alignas(32) int32_t tile[SNOW_LANES]; /* negative: outside the map, where nothing changes */
+} snow_tiles;
+
 /* The third coordinate. */
 typedef struct snow_heights {
     int32_t z[SNOW_LANES];
@@ -40,6 +45,7 @@ struct snow_squad {
     uint32_t landed;                /* lanes in which somebody has landed */
     uint64_t key;                   /* of all their streams */
     snow_row *rows;
+    snow_tiles *tiles;     /* as many */
     snow_heights *heights; /* as many; NULL in the plane */
     uint32_t room; /* so many rows: a power of two */
     uint32_t next; /* the row that is written next */
@@ -49,6 +55,11 @@ struct snow_squad {
 static inline snow_row *snow_squad_row(const snow_squad *squad, uint32_t row)
 {
     return &squad->rows[row & (squad->room - 1)];
+}
+
+static inline snow_tiles *snow_squad_tiles(const snow_squad *squad, uint32_t row)
+{
+    return &squad->tiles[row & (squad->room - 1)];
 }
 
 static inline snow_heights *snow_squad_heights(const snow_squad *squad, uint32_t row)
@@ -83,8 +94,5 @@ uint32_t snow_squad_outdated_avx2(const snow_ground *ground, const snow_squad *s
                                   uint32_t end, uint64_t since);
 uint32_t snow_squad_outdated_avx512(const snow_ground *ground, const snow_squad *squad, int lane, uint32_t first,
                                     uint32_t end, uint64_t since);
-
-/* One row. */
-bool snow_squad_is_outdated(const snow_ground *ground, const snow_squad *squad, int lane, uint32_t row);
 
 #endif

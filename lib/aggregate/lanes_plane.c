@@ -7,222 +7,14 @@
 
    One question is a chain of six gathers, each of which waits for the one before:
    so several squads do each link of the chain after one another. */
-#include "aggregate/squad.h"
-
-#include <immintrin.h>
-
-#include <stddef.h>
-
-#define PASTE(a, b) a##b
-#define NAME(a, b) PASTE(a, b)
-
-/* Copies for one lattice and number of squads hold no loops and no calls. */
-#define INLINE static inline __attribute__((always_inline))
-
-typedef __m256i lanes;
-
-INLINE lanes all(uint32_t x)
-{
-    return _mm256_set1_epi32((int)x);
-}
-
-INLINE lanes load(const void *from)
-{
-    return _mm256_load_si256(from);
-}
-
-INLINE void store(void *to, lanes a)
-{
-    _mm256_store_si256(to, a);
-}
-
-INLINE lanes choose(lanes mask, lanes yes, lanes no)
-{
-    return _mm256_blendv_epi8(no, yes, mask);
-}
-
-/* a where the sign is clear, -a where it is set. */
-INLINE lanes signed_by(lanes a, lanes sign)
-{
-    return _mm256_sign_epi32(a, _mm256_or_si256(sign, all(1)));
-}
-
-/* Addresses and random numbers have 64 bits: a wide is one for each lane. */
-#if defined(__AVX512F__)
-typedef __m512i wide;
-
-INLINE wide every(uint64_t x)
-{
-    return _mm512_set1_epi64((long long)x);
-}
-
-INLINE wide widened(lanes a)
-{
-    return _mm512_cvtepu32_epi64(a);
-}
-
-INLINE lanes lower_halves(wide a)
-{
-    return _mm512_cvtepi64_epi32(a);
-}
-
-INLINE wide plus(wide a, wide b)
-{
-    return _mm512_add_epi64(a, b);
-}
-
-/* Of lower halves. */
-INLINE wide product(wide a, wide b)
-{
-    return _mm512_mul_epu32(a, b);
-}
-
-INLINE wide shifted_down(wide a, wide bits)
-{
-    return _mm512_srlv_epi64(a, bits);
-}
-
-INLINE wide upper_to_lower(wide a)
-{
-    return _mm512_srli_epi64(a, 32);
-}
-
-/* Of their lower halves. */
-INLINE wide joined(wide upper, wide lower)
-{
-    return _mm512_mask_blend_epi32(0xAAAA, lower, _mm512_slli_epi64(upper, 32));
-}
-
-INLINE wide xor(wide a, wide b, wide c)
-{
-    return _mm512_ternarylogic_epi64(a, b, c, 0x96);
-}
-
-/* Eight bytes from each address. */
-INLINE wide fetch(wide address)
-{
-    return _mm512_i64gather_epi64(address, NULL, 1);
-}
-
-/* The same where a lane's mask is set; 0 elsewhere. */
-INLINE wide fetch_some(wide address, lanes mask)
-{
-    return _mm512_mask_i64gather_epi64(_mm512_setzero_si512(), _mm256_movepi32_mask(mask), address, NULL, 1);
-}
-
-/* The elements of an array of 64 bits each. */
-INLINE wide fetch_from(const void *array, wide index)
-{
-    return _mm512_i64gather_epi64(index, array, 8);
-}
-#else
-/* Two vectors: lanes with even and with odd numbers. */
-typedef struct wide {
-    lanes even, odd;
-} wide;
-
-INLINE wide every(uint64_t x)
-{
-    return (wide){_mm256_set1_epi64x((long long)x), _mm256_set1_epi64x((long long)x)};
-}
-
-INLINE wide widened(lanes a)
-{
-    return (wide){_mm256_blend_epi32(a, _mm256_setzero_si256(), 0xAA), _mm256_srli_epi64(a, 32)};
-}
-
-INLINE lanes lower_halves(wide a)
-{
-    return _mm256_blend_epi32(a.even, _mm256_slli_epi64(a.odd, 32), 0xAA);
-}
-
-INLINE wide plus(wide a, wide b)
-{
-    return (wide){_mm256_add_epi64(a.even, b.even), _mm256_add_epi64(a.odd, b.odd)};
-}
-
-/* Of lower halves. */
-INLINE wide product(wide a, wide b)
-{
-    return (wide){_mm256_mul_epu32(a.even, b.even), _mm256_mul_epu32(a.odd, b.odd)};
-}
-
-INLINE wide shifted_down(wide a, wide bits)
-{
-    return (wide){_mm256_srlv_epi64(a.even, bits.even), _mm256_srlv_epi64(a.odd, bits.odd)};
-}
-
-INLINE wide upper_to_lower(wide a)
-{
-    return (wide){_mm256_srli_epi64(a.even, 32), _mm256_srli_epi64(a.odd, 32)};
-}
-
-/* Of their lower halves. */
-INLINE wide joined(wide upper, wide lower)
-{
-    return (wide){_mm256_blend_epi32(lower.even, _mm256_slli_epi64(upper.even, 32), 0xAA),
-                  _mm256_blend_epi32(lower.odd, _mm256_slli_epi64(upper.odd, 32), 0xAA)};
-}
-
-INLINE wide xor(wide a, wide b, wide c)
-{
-    return (wide){_mm256_xor_si256(_mm256_xor_si256(a.even, b.even), c.even),
-                  _mm256_xor_si256(_mm256_xor_si256(a.odd, b.odd), c.odd)};
-}
-
-/* Eight bytes from each address. */
-INLINE wide fetch(wide address)
-{
-    return (wide){_mm256_i64gather_epi64(NULL, address.even, 1), _mm256_i64gather_epi64(NULL, address.odd, 1)};
-}
-
-/* The same where a lane's mask is set; 0 elsewhere. */
-INLINE wide fetch_some(wide address, lanes mask)
-{
-    const lanes none = _mm256_setzero_si256();
-    return (wide){_mm256_mask_i64gather_epi64(none, NULL, address.even, _mm256_slli_epi64(mask, 32), 1),
-                  _mm256_mask_i64gather_epi64(none, NULL, address.odd, mask, 1)};
-}
-
-/* The elements of an array of 64 bits each. */
-INLINE wide fetch_from(const void *array, wide index)
-{
-    return (wide){_mm256_i64gather_epi64(array, index.even, 8), _mm256_i64gather_epi64(array, index.odd, 8)};
-}
-#endif
-
-/* Philox, as in draws_kernel.c: the block that each comes to. */
-INLINE void draw(const uint64_t *key, const snow_lanes *walkers, wide number[2])
-{
-    wide a = widened(_mm256_srli_epi32(load(walkers->drawn), 1));
-    wide b = widened(load(walkers->low));
-    wide c = widened(load(walkers->high));
-    wide d = every(SNOW_RANDOM_JUMPS);
-    for (int round = 0; round < SNOW_RANDOM_ROUNDS; round++) {
-        wide product_0 = product(a, every(SNOW_RANDOM_MULTIPLIER_0));
-        wide product_1 = product(c, every(SNOW_RANDOM_MULTIPLIER_1));
-        a = xor(upper_to_lower(product_1), b, every(key[2 * round]));
-        c = xor(upper_to_lower(product_0), d, every(key[2 * round + 1]));
-        b = product_1;
-        d = product_0;
-    }
-    number[0] = joined(b, a);
-    number[1] = joined(d, c);
-}
-
-static void make_keys(uint64_t key[2 * SNOW_RANDOM_ROUNDS], uint64_t first)
-{
-    for (uint32_t round = 0; round < SNOW_RANDOM_ROUNDS; round++) {
-        key[2 * round] = (uint32_t)first + round * SNOW_RANDOM_WEYL_0;
-        key[2 * round + 1] = (uint32_t)(first >> 32) + round * SNOW_RANDOM_WEYL_1;
-    }
-}
+#include "aggregate/lanes.h"
 
 /* What a question needs from one link of the chain to the next. */
 typedef struct question {
     lanes x, y;
     lanes u, v; /* from the corner of the map; 0 outside */
     lanes inside;
+    lanes tile; /* 0 outside */
     wide page;
     lanes near, is_close;
     wide line;
@@ -231,8 +23,8 @@ typedef struct question {
     wide pick, exit;
 } question;
 
-/* What follows is snow_plane_map_find() and snow_plane_page_look(). The number of the tile: */
-INLINE lanes find_tile(const snow_plane_map *map, question *q)
+/* What follows is snow_plane_map_tile(), snow_plane_map_find() and snow_plane_page_look(). */
+INLINE void find_tile(const snow_plane_map *map, question *q)
 {
     lanes u = _mm256_sub_epi32(q->x, all((uint32_t)map->box.x));
     lanes v = _mm256_sub_epi32(q->y, all((uint32_t)map->box.y));
@@ -243,12 +35,18 @@ INLINE lanes find_tile(const snow_plane_map *map, question *q)
     q->v = _mm256_and_si256(v, q->inside);
     /* Row and column in the halves of a lane. */
     lanes place = _mm256_blend_epi16(_mm256_srli_epi32(q->v, 5), _mm256_slli_epi32(q->u, 11), 0xAA);
-    return _mm256_madd_epi16(place, all(map->box.columns | 1u << 16));
+    q->tile = _mm256_madd_epi16(place, all(map->box.columns | 1u << 16));
+}
+
+/* For diaries: negative outside. */
+INLINE lanes told_by(const question *q)
+{
+    return _mm256_or_si256(q->tile, _mm256_xor_si256(q->inside, all(UINT32_MAX)));
 }
 
 INLINE void find_page(const snow_plane_map *map, question *q)
 {
-    q->page = fetch_from((const void *)map->tile, widened(find_tile(map, q)));
+    q->page = fetch_from((const void *)map->tile, widened(q->tile));
 }
 
 INLINE void look_near(question *q)
@@ -279,6 +77,15 @@ INLINE void look_closely(question *q)
     code = shifted_down(code, bit);
     lanes exact = _mm256_and_si256(_mm256_andnot_si256(lower_halves(code), all(3)), q->is_close);
     q->seen = choose(q->inside, _mm256_max_epu32(q->near, exact), all(SNOW_MAP_BEYOND));
+}
+
+INLINE void look(const snow_plane_map *map, question *q)
+{
+    find_tile(map, q);
+    find_page(map, q);
+    look_near(q);
+    find_line(q);
+    look_closely(q);
 }
 
 /* The class of what is free outside the map: snow_exits_class_near(). */
@@ -372,6 +179,10 @@ INLINE void go_on(const snow_ground *ground, bool hexagonal, question *q, snow_s
         store(row->y, q[i].y);
         store(row->drawn, _mm256_add_epi32(load(squads[i].lanes.drawn), all(half)));
     }
+    EACH(i) {
+        find_tile(&ground->plane, &q[i]);
+        store(snow_squad_tiles(&squads[i], squads[i].next)->tile, told_by(&q[i]));
+    }
     EACH(i) find_page(&ground->plane, &q[i]);
     EACH(i) look_near(&q[i]);
     EACH(i) find_line(&q[i]);
@@ -446,7 +257,7 @@ INLINE void walk_together(const snow_ground *ground, bool hexagonal, snow_squad 
     }
 }
 
-void NAME(snow_squads_walk_, SNOW_KERNEL)(const snow_ground *ground, snow_squad *squads, int count)
+void SNOW_NAME(snow_squads_walk_, SNOW_KERNEL)(const snow_ground *ground, snow_squad *squads, int count)
 {
     if (ground->exits.lattice == SNOW_AGGREGATE_HEXAGONAL)
         walk_together(ground, true, squads, count);
@@ -454,31 +265,42 @@ void NAME(snow_squads_walk_, SNOW_KERNEL)(const snow_ground *ground, snow_squad 
         walk_together(ground, false, squads, count);
 }
 
-/* Eight rows of a column at a time: which of them may have changed. */
-INLINE uint32_t find_changed(const snow_ground *ground, const snow_squad *squad, int lane, uint32_t first,
+/* Eight rows of a column: which of them may have changed. */
+INLINE uint32_t find_changed(const snow_plane_map *map, const snow_squad *squad, int lane, lanes row, lanes counts,
                              uint32_t since)
 {
-    enum { ROW = sizeof(snow_row) / sizeof(int32_t) };
-    const lanes eight = _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7);
-    lanes row = _mm256_and_si256(_mm256_add_epi32(all(first), eight), all(squad->room - 1));
-    lanes at = _mm256_mullo_epi32(row, all(ROW));
-    question q = {.x = _mm256_i32gather_epi32(squad->rows->x + lane, at, 4),
-                  .y = _mm256_i32gather_epi32(squad->rows->y + lane, at, 4)};
-    lanes tile = find_tile(&ground->plane, &q);
-    lanes changed = _mm256_i32gather_epi32((const int *)ground->plane.changed, tile, 4);
+    lanes tile = _mm256_i32gather_epi32(squad->tiles->tile + lane, _mm256_slli_epi32(row, 3), 4);
+    lanes can_change = _mm256_andnot_si256(tile, counts); /* the sign tells */
+    lanes changed = _mm256_mask_i32gather_epi32(all(since), (const int *)map->changed, tile, can_change, 4);
     lanes is_newer = _mm256_cmpgt_epi32(_mm256_sub_epi32(changed, all(since)), _mm256_setzero_si256());
-    return (uint32_t)_mm256_movemask_ps(_mm256_castsi256_ps(_mm256_and_si256(is_newer, q.inside)));
+    return (uint32_t)_mm256_movemask_ps(_mm256_castsi256_ps(is_newer));
 }
 
-uint32_t NAME(snow_squad_outdated_, SNOW_KERNEL)(const snow_ground *ground, const snow_squad *squad, int lane,
+/* Which of them are answered as they were. */
+INLINE uint32_t find_lasting(const snow_ground *ground, const snow_squad *squad, int lane, lanes row)
+{
+    enum { ROW_BITS = 5 };
+    _Static_assert(sizeof(snow_row) == sizeof(int32_t) << ROW_BITS, "rows are found by shifts");
+    lanes at = _mm256_slli_epi32(row, ROW_BITS);
+    question q = {.x = _mm256_i32gather_epi32(squad->rows->x + lane, at, 4),
+                  .y = _mm256_i32gather_epi32(squad->rows->y + lane, at, 4)};
+    lanes answer = _mm256_i32gather_epi32((const int *)squad->rows->answer + lane, at, 4);
+    look(&ground->plane, &q);
+    return (uint32_t)_mm256_movemask_ps(_mm256_castsi256_ps(_mm256_cmpeq_epi32(q.seen, answer)));
+}
+
+uint32_t SNOW_NAME(snow_squad_outdated_, SNOW_KERNEL)(const snow_ground *ground, const snow_squad *squad, int lane,
                                                  uint32_t first, uint32_t end, uint64_t since)
 {
-    for (uint32_t row = first; row - first < end - first; row += 8) {
-        uint32_t changed = find_changed(ground, squad, lane, row, (uint32_t)since);
-        for (uint32_t i = 0; changed >> i != 0; i++)
-            if ((changed >> i & 1) != 0 && row + i - first < end - first &&
-                snow_squad_is_outdated(ground, squad, lane, row + i))
-                return row + i;
+    const lanes eight = _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7);
+    for (uint32_t done = 0; done < end - first; done += SNOW_LANES) {
+        lanes row = _mm256_and_si256(_mm256_add_epi32(all(first + done), eight), all(squad->room - 1));
+        lanes counts = _mm256_cmpgt_epi32(all(end - first - done), eight);
+        uint32_t changed = find_changed(&ground->plane, squad, lane, row, counts, (uint32_t)since);
+        if (changed != 0)
+            changed &= ~find_lasting(ground, squad, lane, row);
+        if (changed != 0)
+            return first + done + (uint32_t)__builtin_ctz(changed);
     }
     return end;
 }
