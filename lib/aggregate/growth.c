@@ -102,7 +102,15 @@ static snow_status fit(snow_growth *growth, snow_heap *heap, int64_t farthest)
 static snow_status reserve(snow_growth *growth, snow_heap *heap)
 {
     snow_ground *ground = &growth->ground;
-    return is_in_space(growth) ? snow_space_map_reserve(&ground->space, heap) : snow_plane_map_reserve(&ground->plane, heap);
+    if (is_in_space(growth))
+        return snow_space_map_reserve(&ground->space, heap);
+    if (snow_plane_map_has_room(&ground->plane))
+        return SNOW_OK;
+    snow_ahead_pause(&growth->ahead);
+    snow_status status = snow_plane_map_make_room(&ground->plane, heap);
+    snow_squads_choose(ground, growth->rules.isa);
+    snow_ahead_resume(&growth->ahead);
+    return status;
 }
 
 /* What can fail comes before what shows: a walker that has to come again must find what it found. */

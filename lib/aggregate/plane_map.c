@@ -11,8 +11,6 @@ enum {
     SITE_REACH = 3 /* of what a filled site says about sites */
 };
 
-snow_plane_matter snow_plane_nothing;
-
 /* Of sites: the radius of the largest region round one that does not hold the other. */
 static int distance(snow_aggregate_lattice lattice, int x, int y)
 {
@@ -73,17 +71,17 @@ static size_t tiles_of(snow_plane_box box)
     return (size_t)box.columns * box.rows;
 }
 
-static void start_page(snow_plane_page *page, uint8_t class)
+static void start_page(snow_plane_map *map, uint32_t page, uint8_t class)
 {
     for (int i = 0; i < 64; i++)
-        atomic_init(&page->near[i], class);
+        atomic_init(&map->page[page].near[i], class);
     for (int i = 0; i < 4; i++)
-        atomic_init(&page->line[i], &snow_plane_nothing.line);
+        atomic_init(&map->quarters[page].line[i], 0);
 }
 
 static snow_status cover(snow_plane_map *map, snow_heap *heap, snow_plane_box box)
 {
-    snow_plane_page *_Atomic *tile = snow_heap_get_raw(heap, tiles_of(box), sizeof *tile);
+    _Atomic uint32_t *tile = snow_heap_get_raw(heap, tiles_of(box), sizeof *tile);
     uint8_t *tile_class = snow_heap_get_raw(heap, tiles_of(box), 1);
     uint32_t *changed = snow_heap_get(heap, tiles_of(box), sizeof *changed);
     if (tile == NULL || tile_class == NULL || changed == NULL) {
@@ -94,7 +92,7 @@ static snow_status cover(snow_plane_map *map, snow_heap *heap, snow_plane_box bo
     }
     memset(tile_class, map->halos->beyond_tiles, tiles_of(box));
     for (size_t i = 0; i < tiles_of(box); i++)
-        atomic_init(&tile[i], &map->far[map->halos->beyond_tiles]);
+        atomic_init(&tile[i], map->halos->beyond_tiles);
     map->box = box;
     map->width = box.columns * 32;
     map->height = box.rows * 32;
@@ -127,36 +125,118 @@ static void make_prints(snow_plane_map *map)
                         print_of(map->lattice, place, row + (int)first_of_print(odd) - odd, word - 1);
 }
 
+/* A longer array in place of one; NULL if there is no memory: then it stays. */
+static void *lengthened(snow_heap *heap, void *array, size_t count, size_t room, size_t size)
+{
+    void *longer = snow_heap_get_raw(heap, room, size);
+    if (longer == NULL)
+        return NULL;
+    if (count > 0)
+        memcpy(longer, array, count * size);
+    snow_heap_put(heap, array);
+    return longer;
+}
+
+/* Small steps: what is wasted is memory, what they cost is a few copies of each page. */
+static uint32_t next_room(uint32_t room)
+{
+    enum { STEP = 256 };
+    return room + room / 8 + STEP;
+}
+
+static snow_status make_room_for_pages(snow_plane_map *map, snow_heap *heap)
+{
+    enum { READ_AHEAD = 1 }; /* lanes read the bytes behind the one that they want */
+    uint32_t room = next_room(map->room_for_pages);
+    snow_plane_page *page = lengthened(heap, map->page, map->pages, room + READ_AHEAD, sizeof *page);
+    if (page == NULL)
+        return heap->refusal;
+    map->page = page;
+    snow_plane_quarters *quarters = lengthened(heap, map->quarters, map->pages, room, sizeof *quarters);
+    if (quarters == NULL)
+        return heap->refusal;
+    map->quarters = quarters;
+    map->room_for_pages = room;
+    return SNOW_OK;
+}
+
+static snow_status make_room_for_lines(snow_plane_map *map, snow_heap *heap)
+{
+    uint32_t room = next_room(map->room_for_lines);
+    snow_plane_line *line = lengthened(heap, map->line, map->lines, room, sizeof *line);
+    if (line == NULL)
+        return heap->refusal;
+    map->line = line;
+    if (map->keeps_matter) {
+        snow_plane_matter *matter = lengthened(heap, map->matter, map->lines, room, sizeof *matter);
+        if (matter == NULL)
+            return heap->refusal;
+        map->matter = matter;
+    }
+    map->room_for_lines = room;
+    return SNOW_OK;
+}
+
+/* What one filled site may need. */
+enum { NEW_PAGES = 64, NEW_LINES = 4 };
+
+bool snow_plane_map_has_room(const snow_plane_map *map)
+{
+    return map->room_for_pages - map->pages >= NEW_PAGES && map->room_for_lines - map->lines >= NEW_LINES;
+}
+
+snow_status snow_plane_map_make_room(snow_plane_map *map, snow_heap *heap)
+{
+    snow_status status = SNOW_OK;
+    if (map->room_for_pages - map->pages < NEW_PAGES)
+        status = make_room_for_pages(map, heap);
+    if (status == SNOW_OK && map->room_for_lines - map->lines < NEW_LINES)
+        status = make_room_for_lines(map, heap);
+    return status;
+}
+
+static uint32_t take_page(snow_plane_map *map, uint8_t class)
+{
+    start_page(map, map->pages, class);
+    return map->pages++;
+}
+
+static uint32_t take_line(snow_plane_map *map)
+{
+    memset((void *)&map->line[map->lines], 0, sizeof map->line[0]);
+    if (map->keeps_matter)
+        memset((void *)&map->matter[map->lines], 0, sizeof map->matter[0]);
+    return map->lines++;
+}
+
 snow_status snow_plane_map_start(snow_plane_map *map, snow_heap *heap, const snow_exits *exits, bool keeps_matter,
                                  snow_plane_box box)
 {
-    *map = (snow_plane_map){
-        .pages = {.item = sizeof(snow_plane_page)},
-        .lines = {.item = keeps_matter ? sizeof(snow_plane_matter) : sizeof(snow_plane_line)},
-        .keeps_matter = keeps_matter,
-        .lattice = exits->lattice,
-    };
+    *map = (snow_plane_map){.keeps_matter = keeps_matter, .lattice = exits->lattice};
+    snow_status status = snow_plane_map_make_room(map, heap);
+    if (status != SNOW_OK)
+        return status;
     map->halos = snow_heap_get_raw(heap, 1, sizeof *map->halos);
     if (map->halos == NULL)
         return heap->refusal;
-    start_page(&map->outside, SNOW_MAP_BEYOND);
     snow_halos_make(map->halos, exits);
-    for (int class = 0; class < SNOW_EXIT_CLASSES; class++)
-        start_page(&map->far[class], (uint8_t)class);
+    for (uint32_t page = 0; page < SNOW_PLANE_SHARED_PAGES; page++)
+        take_page(map, (uint8_t)page);
+    for (uint32_t line = 0; line < SNOW_PLANE_SHARED_LINES; line++)
+        take_line(map);
     make_prints(map);
     return cover(map, heap, box);
 }
 
 void snow_plane_map_end(snow_plane_map *map, snow_heap *heap)
 {
-    snow_pool_end(&map->lines, heap);
-    snow_pool_end(&map->pages, heap);
     uncover(map, heap);
     snow_heap_put(heap, map->halos);
-    map->halos = NULL;
-    map->changed = NULL;
-    map->tile_class = NULL;
-    map->tile = NULL;
+    snow_heap_put(heap, map->matter);
+    snow_heap_put(heap, map->line);
+    snow_heap_put(heap, map->quarters);
+    snow_heap_put(heap, map->page);
+    *map = (snow_plane_map){.lattice = map->lattice};
 }
 
 static void stamp(const snow_plane_map *map, size_t tile)
@@ -169,45 +249,41 @@ static size_t tile_at(const snow_plane_map *map, int64_t column, int64_t row)
     return (size_t)row * map->box.columns + (size_t)column;
 }
 
-/* The page is not touched to learn that: it may be far from the processor. */
 static bool has_own_page(const snow_plane_map *map, size_t tile)
 {
-    uintptr_t from_far = (uintptr_t)SNOW_MAP_GET(map->tile[tile]) - (uintptr_t)map->far;
-    return from_far >= sizeof map->far;
+    return SNOW_MAP_GET(map->tile[tile]) >= SNOW_PLANE_SHARED_PAGES;
 }
 
-static snow_plane_page *page_of(snow_plane_map *map, size_t tile)
+static uint32_t page_of(snow_plane_map *map, size_t tile)
 {
     if (!has_own_page(map, tile)) {
-        snow_plane_page *page = snow_pool_take(&map->pages);
-        start_page(page, map->halos->beyond_blocks);
+        uint32_t page = take_page(map, map->halos->beyond_blocks);
         stamp(map, tile);
         SNOW_MAP_PUT_ADDRESS(map->tile[tile], page);
     }
     return SNOW_MAP_GET(map->tile[tile]);
 }
 
-static snow_plane_page *known_page(const snow_plane_map *map, uint32_t u, uint32_t v)
+static uint32_t line_of(snow_plane_map *map, size_t tile, uint32_t u, uint32_t v)
 {
-    return SNOW_MAP_GET(map->tile[(size_t)(v / 32) * map->box.columns + u / 32]);
-}
-
-static snow_plane_line *line_of(snow_plane_map *map, size_t tile, uint32_t u, uint32_t v)
-{
-    uint32_t place = v / 16 % 2 * 2 + u / 16 % 2;
-    snow_plane_page *page = page_of(map, tile);
-    snow_plane_line *line = SNOW_MAP_GET(page->line[place]);
-    if (line == &snow_plane_nothing.line) {
-        line = snow_pool_take(&map->lines);
-        SNOW_MAP_PUT_ADDRESS(page->line[place], line);
+    uint32_t page = page_of(map, tile);
+    uint32_t line = snow_plane_map_line(map, page, u, v);
+    if (line == 0) {
+        line = take_line(map);
+        SNOW_MAP_PUT_ADDRESS(map->quarters[page].line[v / 16 % 2 * 2 + u / 16 % 2], line);
     }
     return line;
 }
 
-/* The cell of 2 sites a side round a site. */
-static bool pair_holds_special(const snow_plane_page *page, uint32_t u, uint32_t v)
+static uint32_t known_page(const snow_plane_map *map, uint32_t u, uint32_t v)
 {
-    const snow_plane_line *line = SNOW_MAP_GET(page->line[v / 16 % 2 * 2 + u / 16 % 2]);
+    return SNOW_MAP_GET(map->tile[tile_at(map, u / TILE, v / TILE)]);
+}
+
+/* The cell of 2 sites a side round a site. */
+static bool pair_holds_special(const snow_plane_map *map, uint32_t u, uint32_t v)
+{
+    const snow_plane_line *line = &map->line[snow_plane_map_line(map, known_page(map, u, v), u, v)];
     uint32_t even = SNOW_MAP_GET(line->row[v % 16 / 2 * 2]);
     uint32_t odd = SNOW_MAP_GET(line->row[v % 16 / 2 * 2 + 1]);
     uint32_t special = (even & even >> 1) | (odd & odd >> 1);
@@ -243,7 +319,7 @@ static bool tiles_hold_special(const snow_plane_map *map, uint32_t u, uint32_t v
 static bool cell_holds_special(const snow_plane_map *map, uint32_t u, uint32_t v, int kind)
 {
     if (kind <= 3)
-        return blocks_hold_special(known_page(map, u, v), u, v, kind);
+        return blocks_hold_special(&map->page[known_page(map, u, v)], u, v, kind);
     return tiles_hold_special(map, u, v, kind);
 }
 
@@ -312,7 +388,7 @@ static void spread_to_blocks(snow_plane_map *map, const snow_halo *halo, company
     part near = clip(part_of(halo, beside, i, j), (int64_t)map->box.columns * 8, (int64_t)map->box.rows * 8);
     for (int64_t y = near.first_row / 8; y <= near.last_row / 8; y++)
         for (int64_t x = near.first_column / 8; x <= near.last_column / 8; x++)
-            if (lower_page(page_of(map, tile_at(map, x, y)), halo, (int)(8 * x - i - halo->first),
+            if (lower_page(&map->page[page_of(map, tile_at(map, x, y))], halo, (int)(8 * x - i - halo->first),
                            (int)(8 * y - j - halo->first)))
                 stamp(map, tile_at(map, x, y));
 }
@@ -321,7 +397,7 @@ static void set_tile_class(snow_plane_map *map, size_t tile, uint8_t class)
 {
     if (!has_own_page(map, tile)) {
         stamp(map, tile);
-        SNOW_MAP_PUT_ADDRESS(map->tile[tile], &map->far[class]);
+        SNOW_MAP_PUT(map->tile[tile], class);
     }
     map->tile_class[tile] = class;
 }
@@ -378,7 +454,7 @@ static SNOW_APART void add_first_special(snow_plane_map *map, uint32_t u, uint32
 
 static void add_special(snow_plane_map *map, uint32_t u, uint32_t v, company known)
 {
-    if (u < map->width && v < map->height && !pair_holds_special(known_page(map, u, v), u, v))
+    if (u < map->width && v < map->height && !pair_holds_special(map, u, v))
         add_first_special(map, u, v, known);
 }
 
@@ -424,18 +500,11 @@ snow_status snow_plane_map_widen(snow_plane_map *map, snow_heap *heap, snow_plan
     return SNOW_OK;
 }
 
-snow_status snow_plane_map_reserve(snow_plane_map *map, snow_heap *heap)
-{
-    enum { LINES = 4, TILES = 64 };
-    snow_status status = snow_pool_reserve(&map->pages, heap, TILES);
-    return status == SNOW_OK ? snow_pool_reserve(&map->lines, heap, LINES) : status;
-}
-
 /* Some pairs of rows of a line, from row v of the map on. */
 static void add_print(snow_plane_map *map, uint32_t u, uint32_t v, uint32_t pairs, const uint64_t *print)
 {
     size_t tile = tile_at(map, u / TILE, v / TILE);
-    _Atomic uint64_t *row = &line_of(map, tile, u, v)->two_rows[v % 16 / 2];
+    _Atomic uint64_t *row = &map->line[line_of(map, tile, u, v)].two_rows[v % 16 / 2];
     uint64_t changed = 0;
     for (uint32_t i = 0; i < pairs; i++) {
         uint64_t known = SNOW_MAP_GET(row[i]);
@@ -488,7 +557,7 @@ void snow_plane_map_add(snow_plane_map *map, int32_t x, int32_t y, bool obstacle
     add_prints(map, (int64_t)x - map->box.x, (int64_t)y - map->box.y);
     if (!map->keeps_matter || u >= map->width || v >= map->height)
         return;
-    snow_plane_matter *matter = (snow_plane_matter *)line_of(map, tile_at(map, u / TILE, v / TILE), u, v);
+    snow_plane_matter *matter = &map->matter[line_of(map, tile_at(map, u / TILE, v / TILE), u, v)];
     _Atomic uint16_t *row = &(obstacle ? matter->obstacle : matter->filled)[v % 16];
     SNOW_MAP_PUT(*row, (uint16_t)(SNOW_MAP_GET(*row) | 1u << u % 16));
 }

@@ -1,11 +1,12 @@
 #include "aggregate/squad.h"
 
 #ifdef SNOW_HAVE_X86_KERNELS
-/* Lanes find tiles by products of 16 bits. */
+/* Lanes find tiles by products of 16 bits, and bytes of pages by numbers of 31. */
 static bool is_for_lanes(const snow_ground *ground)
 {
     return ground->exits.lattice != SNOW_AGGREGATE_CUBIC && !ground->careful && ground->source.width == 0 &&
-           ground->plane.box.columns <= INT16_MAX && ground->plane.box.rows <= INT16_MAX;
+           ground->plane.box.columns <= INT16_MAX && ground->plane.box.rows <= INT16_MAX &&
+           ground->plane.room_for_pages <= INT32_MAX / sizeof(snow_plane_page);
 }
 #endif
 
