@@ -131,7 +131,7 @@ static void add(world *self, snow_site site, uint64_t landing)
         snow_space_map_add(&self->space, site.x, site.y, site.z, false);
     } else {
         if (!snow_plane_map_has_room(&self->plane))
-            assert_int_equal(SNOW_OK, snow_plane_map_make_room(&self->plane, &self->heap));
+            assert_int_equal(SNOW_OK, snow_plane_map_reserve(&self->plane, &self->heap));
         self->plane.landing = landing;
         snow_plane_map_add(&self->plane, site.x, site.y, false);
     }

@@ -107,7 +107,7 @@ static snow_status reserve(snow_growth *growth, snow_heap *heap)
     if (snow_plane_map_has_room(&ground->plane))
         return SNOW_OK;
     snow_ahead_pause(&growth->ahead);
-    snow_status status = snow_plane_map_make_room(&ground->plane, heap);
+    snow_status status = snow_plane_map_reserve(&ground->plane, heap);
     snow_squads_choose(ground, growth->rules.isa);
     snow_ahead_resume(&growth->ahead);
     return status;

@@ -185,7 +185,7 @@ bool snow_plane_map_has_room(const snow_plane_map *map)
     return map->room_for_pages - map->pages >= NEW_PAGES && map->room_for_lines - map->lines >= NEW_LINES;
 }
 
-snow_status snow_plane_map_make_room(snow_plane_map *map, snow_heap *heap)
+snow_status snow_plane_map_reserve(snow_plane_map *map, snow_heap *heap)
 {
     snow_status status = SNOW_OK;
     if (map->room_for_pages - map->pages < NEW_PAGES)
@@ -213,7 +213,7 @@ snow_status snow_plane_map_start(snow_plane_map *map, snow_heap *heap, const sno
                                  snow_plane_box box)
 {
     *map = (snow_plane_map){.keeps_matter = keeps_matter, .lattice = exits->lattice};
-    snow_status status = snow_plane_map_make_room(map, heap);
+    snow_status status = snow_plane_map_reserve(map, heap);
     if (status != SNOW_OK)
         return status;
     map->halos = snow_heap_get_raw(heap, 1, sizeof *map->halos);

@@ -96,7 +96,7 @@ snow_status snow_plane_map_widen(snow_plane_map *map, snow_heap *heap, snow_plan
 bool snow_plane_map_has_room(const snow_plane_map *map);
 
 /* Makes it. What the map knows may move: nobody else may look at it. */
-snow_status snow_plane_map_make_room(snow_plane_map *map, snow_heap *heap);
+snow_status snow_plane_map_reserve(snow_plane_map *map, snow_heap *heap);
 void snow_plane_map_add(snow_plane_map *map, int32_t x, int32_t y, bool obstacle);
 
 /* The number of the tile that a site lies in; negative outside the box. */
