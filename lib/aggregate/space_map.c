@@ -89,6 +89,7 @@ static snow_status cover(snow_space_map *map, snow_heap *heap, snow_space_box bo
         snow_heap_put(heap, (void *)tile);
         return heap->refusal;
     }
+    memset(most, UINT8_MAX, tiles_of(box));
     for (size_t i = 0; i < tiles_of(box); i++) {
         atomic_init(&tile[i], SNOW_SPACE_SHARED - 1);
         changed[i] = (uint32_t)map->landing;
@@ -354,12 +355,6 @@ static int32_t apart_from_tile(int32_t block, int32_t tile)
     return at_least(at_least(4 * tile - block, block - 4 * tile - 3), 0);
 }
 
-/* Nothing would be nearer in a tile at this distance. */
-static bool is_nearer_everywhere(const snow_space_map *map, uint32_t tile, int32_t blocks)
-{
-    return SNOW_MAP_GET(map->tile[tile]) >= SNOW_SPACE_SHARED && map->most[tile] <= map->near_number[blocks];
-}
-
 /* The block (i, j, k) has got its first special site. */
 static void spread_near(snow_space_map *map, int32_t i, int32_t j, int32_t k)
 {
@@ -367,10 +362,10 @@ static void spread_near(snow_space_map *map, int32_t i, int32_t j, int32_t k)
     for (int32_t z = tiles.first[2]; z <= tiles.last[2]; z++) {
         for (int32_t y = tiles.first[1]; y <= tiles.last[1]; y++) {
             int32_t across = at_least(apart_from_tile(j, y), apart_from_tile(k, z));
-            for (int32_t x = tiles.first[0]; x <= tiles.last[0]; x++) {
-                uint32_t tile = tile_at(map, x, y, z);
+            uint32_t tile = tile_at(map, tiles.first[0], y, z);
+            for (int32_t x = tiles.first[0]; x <= tiles.last[0]; x++, tile++) {
                 int32_t side = (y - j / 4 + SIDES / 2) * SIDES + x - i / 4 + SIDES / 2;
-                if (!is_nearer_everywhere(map, tile, at_least(apart_from_tile(i, x), across)))
+                if (map->most[tile] > map->near_number[at_least(apart_from_tile(i, x), across)])
                     lower_page(map, tile, map->near_in_layer[j % 4 * 4 + i % 4][side], 4 * z - k);
             }
         }
