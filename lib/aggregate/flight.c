@@ -220,7 +220,7 @@ COPIED snow_site leave(const snow_ground *ground, manner how, snow_site site, ui
 {
     const snow_exit_table *table = &ground->exits.table[class];
     if (how.lattice == SNOW_AGGREGATE_HEXAGONAL && RARE(class >= (uint32_t)ground->exits.circles))
-        site = snow_source_circle(site, table->radius, draws);
+        site = snow_source_circle(site, table->radius, snow_draws_next(draws));
     else
         site = jump(table, how.lattice, site, snow_draws_next(draws));
     return how.in_vessel ? fold(&ground->source, how.lattice, site) : site;
@@ -239,7 +239,7 @@ COPIED snow_site drift(const snow_ground *ground, manner how, snow_site site, sn
 {
     int64_t clear = clear_of(&ground->source, how.lattice, site);
     if (RARE(clear > ground->source.safe))
-        return snow_source_return(&ground->source, site, draws);
+        return snow_source_come_in(&ground->source, site, draws);
     if (how.lattice == SNOW_AGGREGATE_CUBIC) {
         double ball = snow_source_clear_ball(&ground->source, site);
         if (ball >= SNOW_SOURCE_LEAST_BALL)
@@ -377,7 +377,7 @@ static void set_down(snow_flight *flight, snow_site site, bool landed)
 void snow_flight_start(const snow_ground *ground, snow_flight *flight, uint64_t key, uint64_t walker)
 {
     snow_draws_start(&flight->draws, ground->refill, key, walker, 0);
-    set_down(flight, snow_source_launch(&ground->source, &flight->draws), false);
+    set_down(flight, snow_source_infinity(&ground->source), false);
 }
 
 void snow_flight_resume(const snow_ground *ground, snow_flight *flight, uint64_t key, uint64_t walker, snow_stay stay)
