@@ -130,8 +130,7 @@ static void add(world *self, snow_site site, uint64_t landing)
         self->space.landing = landing;
         snow_space_map_add(&self->space, site.x, site.y, site.z, false);
     } else {
-        if (!snow_plane_map_has_room(&self->plane))
-            assert_int_equal(SNOW_OK, snow_plane_map_reserve(&self->plane, &self->heap));
+        assert_int_equal(SNOW_OK, snow_plane_map_reserve(&self->plane, &self->heap));
         self->plane.landing = landing;
         snow_plane_map_add(&self->plane, site.x, site.y, false);
     }
@@ -147,7 +146,8 @@ static int32_t tile_of(const world *self, snow_site site)
 static uint32_t look(const world *self, snow_site site)
 {
     if (self->lattice == SNOW_AGGREGATE_CUBIC)
-        return snow_space_page_look(snow_space_map_find(&self->space, tile_of(self, site)), site.x, site.y, site.z).seen;
+        return snow_space_map_look(&self->space, snow_space_map_find(&self->space, tile_of(self, site)), site.x, site.y,
+                                   site.z);
     return snow_plane_map_look(&self->plane, snow_plane_map_find(&self->plane, tile_of(self, site)), site.x, site.y);
 }
 

@@ -62,7 +62,7 @@ COPIED int32_t tile_at(const snow_ground *ground, snow_aggregate_lattice lattice
 COPIED uint32_t look(const snow_ground *ground, snow_aggregate_lattice lattice, int32_t tile, snow_site site)
 {
     if (lattice == SNOW_AGGREGATE_CUBIC)
-        return snow_space_page_look(snow_space_map_find(&ground->space, tile), site.x, site.y, site.z).seen;
+        return snow_space_map_look(&ground->space, snow_space_map_find(&ground->space, tile), site.x, site.y, site.z);
     return snow_plane_map_look(&ground->plane, snow_plane_map_find(&ground->plane, tile), site.x, site.y);
 }
 
@@ -220,7 +220,7 @@ COPIED snow_site leave(const snow_ground *ground, manner how, snow_site site, ui
 {
     const snow_exit_table *table = &ground->exits.table[class];
     if (how.lattice == SNOW_AGGREGATE_HEXAGONAL && RARE(class >= (uint32_t)ground->exits.circles))
-        site = snow_source_circle(site, table->radius, draws);
+        site = snow_source_circle(site, table->radius, snow_draws_next(draws));
     else
         site = jump(table, how.lattice, site, snow_draws_next(draws));
     return how.in_vessel ? fold(&ground->source, how.lattice, site) : site;
@@ -239,7 +239,7 @@ COPIED snow_site drift(const snow_ground *ground, manner how, snow_site site, sn
 {
     int64_t clear = clear_of(&ground->source, how.lattice, site);
     if (RARE(clear > ground->source.safe))
-        return snow_source_return(&ground->source, site, draws);
+        return snow_source_come_in(&ground->source, site, draws);
     if (how.lattice == SNOW_AGGREGATE_CUBIC) {
         double ball = snow_source_clear_ball(&ground->source, site);
         if (ball >= SNOW_SOURCE_LEAST_BALL)
@@ -251,9 +251,13 @@ COPIED snow_site drift(const snow_ground *ground, manner how, snow_site site, sn
 /* From outside the map until it is inside again. No cluster can change that. */
 COPIED snow_site come_in(const snow_ground *ground, manner how, snow_site site, snow_draws *draws)
 {
+    if (how.lattice == SNOW_AGGREGATE_CUBIC)
+        snow_draws_end_block(draws);
     do
         site = drift(ground, how, site, draws);
     while (tile_at(ground, how.lattice, site) < 0);
+    if (how.lattice == SNOW_AGGREGATE_CUBIC)
+        snow_draws_end_block(draws);
     return site;
 }
 
@@ -373,7 +377,7 @@ static void set_down(snow_flight *flight, snow_site site, bool landed)
 void snow_flight_start(const snow_ground *ground, snow_flight *flight, uint64_t key, uint64_t walker)
 {
     snow_draws_start(&flight->draws, ground->refill, key, walker, 0);
-    set_down(flight, snow_source_launch(&ground->source, &flight->draws), false);
+    set_down(flight, snow_source_infinity(&ground->source), false);
 }
 
 void snow_flight_resume(const snow_ground *ground, snow_flight *flight, uint64_t key, uint64_t walker, snow_stay stay)
@@ -387,7 +391,9 @@ static void help(const snow_ground *ground, snow_flight *flight, uint32_t seen)
 {
     manner how = manner_of(ground);
     snow_site site = site_of(flight, how);
-    if (seen == SNOW_MAP_BEYOND)
+    if (seen == SNOW_MAP_BEYOND && how.lattice == SNOW_AGGREGATE_CUBIC)
+        site = come_in(ground, how, site, &flight->draws);
+    else if (seen == SNOW_MAP_BEYOND)
         site = drift(ground, how, site, &flight->draws);
     else
         site = leave(ground, how, site, seen, &flight->draws);
@@ -407,6 +413,7 @@ void snow_squad_help(const snow_ground *ground, snow_squad *squad, uint32_t stil
         snow_flight *flight = &squad->flight[lane];
         flight->x = squad->lanes.x[lane];
         flight->y = squad->lanes.y[lane];
+        flight->z = squad->lanes.z[lane];
         snow_draws_move(&flight->draws, squad->lanes.drawn[lane]);
         help(ground, flight, row->answer[lane]);
         snow_squad_enter(squad, lane);

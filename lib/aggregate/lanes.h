@@ -59,6 +59,11 @@ INLINE wide widened(lanes a)
     return _mm512_cvtepu32_epi64(a);
 }
 
+INLINE wide widened_mask(lanes a)
+{
+    return _mm512_cvtepi32_epi64(a);
+}
+
 INLINE lanes lower_halves(wide a)
 {
     return _mm512_cvtepi64_epi32(a);
@@ -127,6 +132,11 @@ INLINE wide every(uint64_t x)
 INLINE wide widened(lanes a)
 {
     return (wide){_mm256_blend_epi32(a, _mm256_setzero_si256(), 0xAA), _mm256_srli_epi64(a, 32)};
+}
+
+INLINE wide widened_mask(lanes a)
+{
+    return (wide){_mm256_shuffle_epi32(a, 0xA0), _mm256_shuffle_epi32(a, 0xF5)};
 }
 
 INLINE lanes lower_halves(wide a)

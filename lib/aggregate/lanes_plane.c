@@ -1,13 +1,13 @@
 /* Squads in the lanes of vectors: eight walkers take each step of a question together.
    Compiled for AVX2 and for AVX-512, with SNOW_KERNEL naming it.
 
-   Looking something up is a gather. Nothing branches: lanes whose walker has landed,
-   or needs more than one number, stand still, and are looked after when a block of
+   Looking something up is a gather. Nothing branches, but for circles (lanes_circle.h):
+   lanes whose walker has landed stand still, and are looked after when a block of
    two numbers is used up. What is done is flight.c's, and so are the results.
 
    One question is a chain of six gathers, each of which waits for the one before:
    so several squads do each link of the chain after one another. */
-#include "aggregate/lanes.h"
+#include "aggregate/lanes_circle.h"
 
 /* What a question needs from one link of the chain to the next. */
 typedef struct question {
@@ -17,8 +17,9 @@ typedef struct question {
     lanes tile; /* 0 outside */
     lanes page, near, is_close, line;
     lanes seen; /* 0, a class, or SNOW_MAP_BEYOND */
-    lanes radius, first;
+    lanes class, radius, first;
     wide pick, exit;
+    lanes is_thrown; /* onto a circle */
 } question;
 
 /* What follows is snow_plane_map_tile(), snow_plane_map_find() and snow_plane_map_look(). */
@@ -108,8 +109,8 @@ INLINE lanes class_outside(const snow_ground *ground, bool hexagonal, const ques
 
 INLINE void find_table(const snow_ground *ground, bool hexagonal, question *q)
 {
-    lanes class = choose(q->inside, q->seen, class_outside(ground, hexagonal, q));
-    lanes place = _mm256_i32gather_epi32((const int *)ground->exits.place, class, 4);
+    q->class = choose(q->inside, q->seen, class_outside(ground, hexagonal, q));
+    lanes place = _mm256_i32gather_epi32((const int *)ground->exits.place, q->class, 4);
     q->radius = _mm256_and_si256(place, all((1u << SNOW_EXIT_RADIUS_BITS) - 1));
     q->first = _mm256_srli_epi32(place, SNOW_EXIT_RADIUS_BITS);
 }
@@ -168,9 +169,23 @@ INLINE void jump(bool hexagonal, question *q, wide number)
         jump_square(q, number);
 }
 
+/* Some come in; some leave a hexagon through a circle. */
+INLINE void throw_some(const snow_ground *ground, bool hexagonal, question *q, wide number)
+{
+    lanes first = all(hexagonal ? (uint32_t)ground->exits.circles : SNOW_MAP_BEYOND);
+    q->is_thrown = _mm256_cmpeq_epi32(_mm256_max_epu32(q->class, first), q->class);
+    if (_mm256_testz_si256(q->is_thrown, q->is_thrown))
+        return;
+    lanes comes_in = _mm256_cmpeq_epi32(q->class, all(SNOW_MAP_BEYOND));
+    lanes hexagon = hexagonal ? _mm256_i32gather_epi32(ground->exits.circle, q->class, 4) : _mm256_setzero_si256();
+    sites to = throw_all(&ground->source, hexagonal, (sites){q->x, q->y}, comes_in, hexagon, number);
+    q->x = choose(q->is_thrown, to.x, q->x);
+    q->y = choose(q->is_thrown, to.y, q->y);
+}
+
 #define EACH(i) _Pragma("GCC unroll 4") for (int i = 0; i < count; i++)
 
-/* All ask a question, each with its half of a block of numbers, and jump. Who cannot has a radius of 0. */
+/* All ask a question, each with its half of a block of numbers, and jump. Who has landed has a radius of 0. */
 INLINE void go_on(const snow_ground *ground, bool hexagonal, question *q, snow_squad *squads,
                          wide (*block)[2], uint32_t half, int count)
 {
@@ -192,16 +207,17 @@ INLINE void go_on(const snow_ground *ground, bool hexagonal, question *q, snow_s
     EACH(i) find_table(ground, hexagonal, &q[i]);
     EACH(i) find_exit(&ground->exits, &q[i], block[i][half]);
     EACH(i) jump(hexagonal, &q[i], block[i][half]);
+    EACH(i) throw_some(ground, hexagonal, &q[i], block[i][half]);
 }
 
-INLINE lanes stays(const question *q)
+INLINE lanes has_landed(const question *q)
 {
-    return _mm256_cmpeq_epi32(q->radius, _mm256_setzero_si256());
+    return _mm256_cmpeq_epi32(_mm256_or_si256(q->radius, q->is_thrown), _mm256_setzero_si256());
 }
 
-/* Two questions of each. In `still` are the lanes that did not move at the second one. */
+/* Two questions of each. */
 INLINE void use_block(const snow_ground *ground, bool hexagonal, const uint64_t *key, snow_squad *squads,
-                             uint32_t *still, int count)
+                             int count)
 {
     question q[SNOW_SQUADS];
     wide block[SNOW_SQUADS][2];
@@ -210,15 +226,15 @@ INLINE void use_block(const snow_ground *ground, bool hexagonal, const uint64_t 
     EACH(i) q[i].x = load(squads[i].lanes.x);
     EACH(i) q[i].y = load(squads[i].lanes.y);
     go_on(ground, hexagonal, q, squads, block, 0, count);
-    EACH(i) at_once[i] = stays(&q[i]);
+    EACH(i) at_once[i] = has_landed(&q[i]);
     go_on(ground, hexagonal, q, squads, block, 1, count);
     EACH(i) {
         snow_lanes *walkers = &squads[i].lanes;
         store(walkers->x, q[i].x);
         store(walkers->y, q[i].y);
-        /* Those who stood still from the first have not used the block. */
+        /* Those who had landed at once have not used the block. */
         store(walkers->drawn, _mm256_add_epi32(load(walkers->drawn), _mm256_andnot_si256(at_once[i], all(2))));
-        still[i] = (uint32_t)_mm256_movemask_ps(_mm256_castsi256_ps(stays(&q[i]))) & squads[i].busy;
+        squads[i].landed = (uint32_t)_mm256_movemask_ps(_mm256_castsi256_ps(has_landed(&q[i])));
     }
 }
 
@@ -239,13 +255,9 @@ INLINE void walk(const snow_ground *ground, bool hexagonal, snow_squad *squads, 
     make_keys(key, squads[0].key);
     uint32_t landed = 0;
     for (uint32_t blocks = blocks_left(squads, count); blocks > 0 && landed == 0; blocks--) {
-        uint32_t still[SNOW_SQUADS];
-        use_block(ground, hexagonal, key, squads, still, count);
-        for (int i = 0; i < count; i++) {
-            if (still[i] != 0)
-                snow_squad_help(ground, &squads[i], still[i]);
+        use_block(ground, hexagonal, key, squads, count);
+        for (int i = 0; i < count; i++)
             landed |= squads[i].landed & squads[i].busy;
-        }
     }
 }
 

@@ -8,7 +8,11 @@
 enum {
     BLOCK = 4,
     TILE = 32,
-    SITE_REACH = 3 /* of what a filled site says about sites */
+    SITE_REACH = 3, /* of what a filled site says about sites */
+    PAGES_OF_A_SITE = 64, /* so many it may need */
+    LINES_OF_A_SITE = 4,
+    MOST_PAGES = 1 << 25, /* lanes look things up by 32 bits with a sign */
+    MOST_LINES = 1 << 27
 };
 
 /* Of sites: the radius of the largest region round one that does not hold the other. */
@@ -125,73 +129,70 @@ static void make_prints(snow_plane_map *map)
                         print_of(map->lattice, place, row + (int)first_of_print(odd) - odd, word - 1);
 }
 
-/* A longer array in place of one; NULL if there is no memory: then it stays. */
-static void *lengthened(snow_heap *heap, void *array, size_t count, size_t room, size_t size)
-{
-    void *longer = snow_heap_get_raw(heap, room, size);
-    if (longer == NULL)
-        return NULL;
-    if (count > 0)
-        memcpy(longer, array, count * size);
-    snow_heap_put(heap, array);
-    return longer;
-}
-
-/* Small steps: what is wasted is memory, what they cost is a few copies of each page. */
-static uint32_t next_room(uint32_t room)
+/* Small steps waste little memory; each stops all walkers. */
+static uint32_t more_than(uint32_t room)
 {
     enum { STEP = 256 };
     return room + room / 8 + STEP;
 }
 
-static snow_status make_room_for_pages(snow_plane_map *map, snow_heap *heap)
+static snow_status add_pages(snow_plane_map *map, snow_heap *heap)
 {
-    enum { READ_AHEAD = 1 }; /* lanes read the bytes behind the one that they want */
-    uint32_t room = next_room(map->room_for_pages);
-    snow_plane_page *page = lengthened(heap, map->page, map->pages, room + READ_AHEAD, sizeof *page);
+    enum { READ_TOO = 1 }; /* lanes read the bytes behind the one that they want */
+    uint32_t room = more_than(map->pages + PAGES_OF_A_SITE);
+    if (room > MOST_PAGES)
+        return SNOW_ERROR_TOO_LARGE;
+    snow_plane_page *page = snow_heap_move(heap, map->page, map->pages, room + READ_TOO, sizeof *page);
     if (page == NULL)
         return heap->refusal;
     map->page = page;
-    snow_plane_quarters *quarters = lengthened(heap, map->quarters, map->pages, room, sizeof *quarters);
+    snow_plane_quarters *quarters = snow_heap_move(heap, map->quarters, map->pages, room, sizeof *quarters);
     if (quarters == NULL)
         return heap->refusal;
     map->quarters = quarters;
-    map->room_for_pages = room;
+    map->page_room = room;
     return SNOW_OK;
 }
 
-static snow_status make_room_for_lines(snow_plane_map *map, snow_heap *heap)
+static snow_status add_lines(snow_plane_map *map, snow_heap *heap)
 {
-    uint32_t room = next_room(map->room_for_lines);
-    snow_plane_line *line = lengthened(heap, map->line, map->lines, room, sizeof *line);
+    uint32_t room = more_than(map->lines + LINES_OF_A_SITE);
+    if (room > MOST_LINES)
+        return SNOW_ERROR_TOO_LARGE;
+    snow_plane_line *line = snow_heap_move(heap, map->line, map->lines, room, sizeof *line);
     if (line == NULL)
         return heap->refusal;
     map->line = line;
     if (map->keeps_matter) {
-        snow_plane_matter *matter = lengthened(heap, map->matter, map->lines, room, sizeof *matter);
+        snow_plane_matter *matter = snow_heap_move(heap, map->matter, map->lines, room, sizeof *matter);
         if (matter == NULL)
             return heap->refusal;
         map->matter = matter;
     }
-    map->room_for_lines = room;
+    map->line_room = room;
     return SNOW_OK;
 }
 
-/* What one filled site may need. */
-enum { NEW_PAGES = 64, NEW_LINES = 4 };
+static bool has_pages(const snow_plane_map *map)
+{
+    return map->pages + PAGES_OF_A_SITE <= map->page_room;
+}
+
+static bool has_lines(const snow_plane_map *map)
+{
+    return map->lines + LINES_OF_A_SITE <= map->line_room;
+}
 
 bool snow_plane_map_has_room(const snow_plane_map *map)
 {
-    return map->room_for_pages - map->pages >= NEW_PAGES && map->room_for_lines - map->lines >= NEW_LINES;
+    return has_pages(map) && has_lines(map);
 }
 
 snow_status snow_plane_map_reserve(snow_plane_map *map, snow_heap *heap)
 {
-    snow_status status = SNOW_OK;
-    if (map->room_for_pages - map->pages < NEW_PAGES)
-        status = make_room_for_pages(map, heap);
-    if (status == SNOW_OK && map->room_for_lines - map->lines < NEW_LINES)
-        status = make_room_for_lines(map, heap);
+    snow_status status = has_pages(map) ? SNOW_OK : add_pages(map, heap);
+    if (status == SNOW_OK && !has_lines(map))
+        status = add_lines(map, heap);
     return status;
 }
 

@@ -76,8 +76,8 @@ typedef struct snow_plane_map {
     snow_plane_quarters *quarters;
     snow_plane_line *line;
     snow_plane_matter *matter; /* of each line, if that is kept */
-    uint32_t pages, room_for_pages;
-    uint32_t lines, room_for_lines;
+    uint32_t pages, page_room;
+    uint32_t lines, line_room;
     bool keeps_matter;
     snow_aggregate_lattice lattice;
     snow_plane_print print[2][16][3]; /* of a site in an odd row or not, at this place of a word: left, here, right */
@@ -92,10 +92,9 @@ void snow_plane_map_end(snow_plane_map *map, snow_heap *heap);
 /* Covers another box, which holds the old one. */
 snow_status snow_plane_map_widen(snow_plane_map *map, snow_heap *heap, snow_plane_box box);
 
-/* Whether there is room for one more filled site, or obstacle: then snow_plane_map_add() may be called. */
+/* Whether there is room for one more filled site, or obstacle: then snow_plane_map_add() cannot fail. If there is none,
+   snow_plane_map_reserve() moves the map in memory: nobody may look at it. */
 bool snow_plane_map_has_room(const snow_plane_map *map);
-
-/* Makes it. What the map knows may move: nobody else may look at it. */
 snow_status snow_plane_map_reserve(snow_plane_map *map, snow_heap *heap);
 void snow_plane_map_add(snow_plane_map *map, int32_t x, int32_t y, bool obstacle);
 

@@ -26,13 +26,14 @@ typedef struct snow_tiles {
 
 /* The third coordinate. */
 typedef struct snow_heights {
-    int32_t z[SNOW_LANES];
+    _Alignas(32) int32_t z[SNOW_LANES];
 } snow_heights;
 
 /* Where walkers are that walk in the lanes of vectors, and their numbers, in halves. */
 typedef struct snow_lanes {
     _Alignas(32) int32_t x[SNOW_LANES];
     int32_t y[SNOW_LANES];
+    int32_t z[SNOW_LANES];
     uint32_t drawn[SNOW_LANES];
     uint32_t low[SNOW_LANES];
     uint32_t high[SNOW_LANES];
@@ -72,6 +73,8 @@ void snow_squads_choose(snow_ground *ground, snow_isa isa);
 void snow_squads_walk_in_turn(const snow_ground *ground, snow_squad *squads, int count);
 void snow_squads_walk_avx2(const snow_ground *ground, snow_squad *squads, int count);
 void snow_squads_walk_avx512(const snow_ground *ground, snow_squad *squads, int count);
+void snow_squads_walk_space_avx2(const snow_ground *ground, snow_squad *squads, int count);
+void snow_squads_walk_space_avx512(const snow_ground *ground, snow_squad *squads, int count);
 
 /* For lanes, when in some the walker has stood still for a row: those that have landed
    are marked, others are helped with what takes whole blocks of numbers. */
@@ -94,5 +97,9 @@ uint32_t snow_squad_outdated_avx2(const snow_ground *ground, const snow_squad *s
                                   uint32_t end, uint64_t since);
 uint32_t snow_squad_outdated_avx512(const snow_ground *ground, const snow_squad *squad, int lane, uint32_t first,
                                     uint32_t end, uint64_t since);
+uint32_t snow_squad_outdated_space_avx2(const snow_ground *ground, const snow_squad *squad, int lane, uint32_t first,
+                                        uint32_t end, uint64_t since);
+uint32_t snow_squad_outdated_space_avx512(const snow_ground *ground, const snow_squad *squad, int lane, uint32_t first,
+                                          uint32_t end, uint64_t since);
 
 #endif
