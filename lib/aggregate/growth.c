@@ -102,12 +102,12 @@ static snow_status fit(snow_growth *growth, snow_heap *heap, int64_t farthest)
 static snow_status reserve(snow_growth *growth, snow_heap *heap)
 {
     snow_ground *ground = &growth->ground;
-    if (!is_in_space(growth))
-        return snow_plane_map_reserve(&ground->plane, heap);
-    if (snow_space_map_has_room(&ground->space))
+    bool space = is_in_space(growth);
+    if (space ? snow_space_map_has_room(&ground->space) : snow_plane_map_has_room(&ground->plane))
         return SNOW_OK;
     snow_ahead_pause(&growth->ahead);
-    snow_status status = snow_space_map_reserve(&ground->space, heap);
+    snow_status status =
+        space ? snow_space_map_reserve(&ground->space, heap) : snow_plane_map_reserve(&ground->plane, heap);
     snow_ahead_resume(&growth->ahead);
     return status;
 }

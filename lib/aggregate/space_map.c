@@ -108,17 +108,6 @@ static void uncover(const snow_space_map *map, snow_heap *heap)
     snow_heap_put(heap, (void *)map->tile);
 }
 
-/* Moves the first ones of an array to one of another size. */
-static void *moved(snow_heap *heap, void *array, size_t count, size_t room, size_t size)
-{
-    void *larger = snow_heap_get_raw(heap, room, size);
-    if (larger != NULL && count > 0)
-        memcpy(larger, array, count * size);
-    if (larger != NULL)
-        snow_heap_put(heap, array);
-    return larger;
-}
-
 static uint32_t more_than(uint32_t room)
 {
     return room + room / 4;
@@ -129,11 +118,11 @@ static snow_status add_pages(snow_space_map *map, snow_heap *heap)
     uint32_t room = more_than(map->pages + PAGES_OF_A_SITE);
     if (room > MOST_PAGES)
         return SNOW_ERROR_TOO_LARGE;
-    snow_space_near *near = moved(heap, map->near, map->pages, room, sizeof *near);
+    snow_space_near *near = snow_heap_move(heap, map->near, map->pages, room, sizeof *near);
     if (near == NULL)
         return heap->refusal;
     map->near = near;
-    snow_space_links *links = moved(heap, map->links, map->pages, room, sizeof *links);
+    snow_space_links *links = snow_heap_move(heap, map->links, map->pages, room, sizeof *links);
     if (links == NULL)
         return heap->refusal;
     map->links = links;
@@ -146,13 +135,13 @@ static snow_status add_lines(snow_space_map *map, snow_heap *heap)
     uint32_t room = more_than(map->lines + LINES_OF_A_SITE);
     if (room > MOST_LINES)
         return SNOW_ERROR_TOO_LARGE;
-    snow_space_line *line = moved(heap, map->line, map->lines, room, sizeof *line);
+    snow_space_line *line = snow_heap_move(heap, map->line, map->lines, room, sizeof *line);
     if (line == NULL)
         return heap->refusal;
     map->line = line;
     snow_space_matter *matter = NULL;
     if (map->keeps_matter) {
-        matter = moved(heap, map->matter, map->lines, room, sizeof *matter);
+        matter = snow_heap_move(heap, map->matter, map->lines, room, sizeof *matter);
         if (matter == NULL)
             return heap->refusal;
     }
