@@ -100,7 +100,8 @@ static void start(world *self, snow_aggregate_lattice lattice)
     self->heap = new_heap();
     assert_int_equal(SNOW_OK, snow_exits_start(&self->exits, &self->heap, lattice));
     if (lattice == SNOW_AGGREGATE_CUBIC)
-        assert_int_equal(SNOW_OK, snow_space_map_start(&self->space, &self->heap, &self->exits, false, small_space));
+        assert_int_equal(SNOW_OK, snow_space_map_start(&self->space, &self->heap, &self->exits, false, small_space,
+                                                     SNOW_ISA_BASELINE));
     else
         assert_int_equal(SNOW_OK, snow_plane_map_start(&self->plane, &self->heap, &self->exits, false, small_plane));
 }

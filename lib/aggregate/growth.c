@@ -153,7 +153,7 @@ static snow_status start_map(snow_growth *growth, snow_heap *heap)
     snow_status status;
     if (is_in_space(growth))
         status = snow_space_map_start(&ground->space, heap, &ground->exits, ground->careful,
-                                      space_box(&ground->source));
+                                      space_box(&ground->source), rules->isa);
     else
         status = snow_plane_map_start(&ground->plane, heap, &ground->exits, ground->careful,
                                       plane_box(&ground->source));

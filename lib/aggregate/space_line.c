@@ -1,15 +1,11 @@
 #include "aggregate/space_line.h"
 
-#include <string.h>
-
 enum {
     REACH = SNOW_SPACE_SITES,
     PAIRS = SNOW_SPACE_PAIRS,
     ROWS = SNOW_SPACE_ROWS,
     UNKNOWN = (REACH + 1) << 8 /* of a pair that is further away */
 };
-
-typedef int16_t eight __attribute__((vector_size(16))); /* pairs of two rows of a line */
 
 static int magnitude(int x)
 {
@@ -86,55 +82,13 @@ void snow_space_line_start(snow_space_line *line)
         atomic_init(&line->pair[i], UNKNOWN);
 }
 
-/* Nobody else writes, so all may be read as plain numbers. */
-static eight get(const void *from)
+snow_space_lower snow_space_line_choose(snow_isa isa)
 {
-    eight numbers;
-    memcpy(&numbers, from, sizeof numbers);
-    return numbers;
-}
-
-static void put(_Atomic uintptr_t *to, eight numbers)
-{
-    uintptr_t word[16 / sizeof(uintptr_t)];
-    memcpy(word, &numbers, sizeof word);
-    for (size_t i = 0; i < 16 / sizeof *to; i++)
-        SNOW_MAP_PUT(to[i], word[i]);
-}
-
-static bool has_any(eight numbers)
-{
-    uint64_t half[2];
-    memcpy(half, &numbers, sizeof half);
-    return (half[0] | half[1]) != 0;
-}
-
-/* Where the least distances of a pair are equal, so are those of the sites that are so near to either; else the
-   nearer one has it all: distances differ by at most 1. */
-static eight nearer(eight known, eight print)
-{
-    eight not_further = print <= (known | 255);
-    eight further = (print | 255) < known;
-    return (known & (print | ~not_further) & ~further) | (print & further);
-}
-
-bool snow_space_line_lower(snow_space_line *line, const snow_space_print *print, int lines, int rows, int layers)
-{
-    enum { WORDS = 16 / sizeof line->word[0] };
-    int first = greater(0, -PAIRS / 2 - layers);
-    int end = lesser(4, PAIRS / 2 + 1 - layers);
-    const int16_t(*across)[ROWS][4] = &print->pair[lines + 1][PAIRS / 2 + layers];
-    eight any = {0};
-    for (int layer = first; layer < end; layer++) {
-        const int16_t(*row)[4] = &across[layer][rows + ROWS / 2];
-        _Atomic uintptr_t *word = &line->word[layer * 2 * WORDS];
-        eight now[2] = {nearer(get(word), get(row)), nearer(get(word + WORDS), get(row + 2))};
-        eight differs = (now[0] ^ get(word)) | (now[1] ^ get(word + WORDS));
-        any |= differs;
-        if (has_any(differs)) {
-            put(word, now[0]);
-            put(word + WORDS, now[1]);
-        }
-    }
-    return has_any(any);
+#ifdef SNOW_HAVE_X86_KERNELS
+    if (isa == SNOW_ISA_AVX2 || isa == SNOW_ISA_AVX512)
+        return snow_space_line_lower_avx2;
+#else
+    (void)isa;
+#endif
+    return snow_space_line_lower_baseline;
 }

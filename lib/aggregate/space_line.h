@@ -8,6 +8,8 @@
 
 #include "aggregate/matter.h"
 
+#include <snowgrowth/options.h>
+
 enum {
     SNOW_SPACE_SITES = 5,                                    /* the greatest distance that lines tell apart */
     SNOW_SPACE_LINES = 3,                                    /* lines in a row that a filled site may change */
@@ -61,6 +63,13 @@ static inline const snow_space_print *snow_space_print_of(const snow_space_print
 
 /* The line learns of a filled site. It lies so many lines after the site's in a row (-1, 0 or 1), its first pair so many
    rows and layers after the site's. True: it says something else now. */
-bool snow_space_line_lower(snow_space_line *line, const snow_space_print *print, int lines, int rows, int layers);
+typedef bool (*snow_space_lower)(snow_space_line *line, const snow_space_print *print, int lines, int rows,
+                                 int layers);
+
+/* All do the same. */
+bool snow_space_line_lower_baseline(snow_space_line *line, const snow_space_print *print, int lines, int rows,
+                                    int layers);
+bool snow_space_line_lower_avx2(snow_space_line *line, const snow_space_print *print, int lines, int rows, int layers);
+snow_space_lower snow_space_line_choose(snow_isa isa);
 
 #endif

@@ -221,9 +221,9 @@ static void make_near(snow_space_map *map)
 }
 
 snow_status snow_space_map_start(snow_space_map *map, snow_heap *heap, const snow_exits *exits, bool keeps_matter,
-                                 snow_space_box box)
+                                 snow_space_box box, snow_isa isa)
 {
-    *map = (snow_space_map){.keeps_matter = keeps_matter};
+    *map = (snow_space_map){.keeps_matter = keeps_matter, .lower = snow_space_line_choose(isa)};
     map->prints = snow_heap_get_raw(heap, SNOW_SPACE_PRINTS, sizeof *map->prints);
     snow_status status = map->prints == NULL ? heap->refusal : cover(map, heap, box);
     if (status == SNOW_OK)
@@ -367,50 +367,63 @@ static void spread_tile(snow_space_map *map, int32_t i, int32_t j, int32_t k)
     range all = tiles_round(&map->box, i, j, k, FAR_REACH);
     for (int32_t z = all.first[2]; z <= all.last[2]; z++) {
         for (int32_t y = all.first[1]; y <= all.last[1]; y++) {
-            uint32_t across = (uint32_t)apart(0, y - j, z - k);
-            for (int32_t x = all.first[0]; x <= all.last[0]; x++) {
-                uint32_t tile = tile_at(map, x, y, z);
+            int32_t across = apart(0, y - j, z - k);
+            uint32_t tile = tile_at(map, all.first[0], y, z);
+            for (int32_t x = all.first[0]; x <= all.last[0]; x++, tile++) {
+                uint32_t distance = (uint32_t)at_least(magnitude(x - i), across);
                 uint32_t page = SNOW_MAP_GET(map->tile[tile]);
-                uint32_t along = (uint32_t)magnitude(x - i);
-                uint32_t distance = along > across ? along : across;
-                if (page >= SNOW_SPACE_SHARED || page <= distance)
-                    continue;
-                has_changed(map, tile);
-                SNOW_MAP_PUT(map->tile[tile], distance);
+                if (page > distance && page < SNOW_SPACE_SHARED) {
+                    SNOW_MAP_PUT(map->tile[tile], distance);
+                    has_changed(map, tile);
+                }
             }
         }
     }
 }
 
-/* Calls spread_tile() for each tile that holds a special site. */
-static void spread_all_tiles(snow_space_map *map)
+/* The old box as tiles of the new one. */
+static range place_of(const snow_space_map *map, const snow_space_box *old)
 {
-    for (uint32_t z = 0; z < map->box.layers; z++)
-        for (uint32_t y = 0; y < map->box.rows; y++)
-            for (uint32_t x = 0; x < map->box.columns; x++)
-                if (holds_special(map, snow_space_map_number(map, x, y, z)))
-                    spread_tile(map, (int32_t)x, (int32_t)y, (int32_t)z);
+    int32_t x = (old->x - map->box.x) / 16;
+    int32_t y = (old->y - map->box.y) / 16;
+    int32_t z = (old->z - map->box.z) / 16;
+    return (range){{x, y, z},
+                   {x + (int32_t)old->columns - 1, y + (int32_t)old->rows - 1, z + (int32_t)old->layers - 1}};
 }
 
-/* Where tiles with pages of their own stood. */
+/* What was known stays true. */
 static void take_over(snow_space_map *map, const snow_space_map *old)
 {
-    uint32_t shift_x = ((uint32_t)old->box.x - (uint32_t)map->box.x) / 16;
-    uint32_t shift_y = ((uint32_t)old->box.y - (uint32_t)map->box.y) / 16;
-    uint32_t shift_z = ((uint32_t)old->box.z - (uint32_t)map->box.z) / 16;
-    for (uint32_t z = 0; z < old->box.layers; z++) {
-        for (uint32_t y = 0; y < old->box.rows; y++) {
-            for (uint32_t x = 0; x < old->box.columns; x++) {
-                uint32_t from = snow_space_map_number(old, x, y, z);
-                uint32_t to = snow_space_map_number(map, x + shift_x, y + shift_y, z + shift_z);
-                uint32_t page = SNOW_MAP_GET(old->tile[from]);
-                if (page < SNOW_SPACE_SHARED)
-                    continue;
-                SNOW_MAP_PUT(map->tile[to], page);
-                map->most[to] = old->most[from];
-            }
+    range inner = place_of(map, &old->box);
+    for (uint32_t k = 0; k < old->box.layers; k++) {
+        for (uint32_t j = 0; j < old->box.rows; j++) {
+            uint32_t from = snow_space_map_number(old, 0, j, k);
+            uint32_t to = tile_at(map, inner.first[0], inner.first[1] + (int32_t)j, inner.first[2] + (int32_t)k);
+            memcpy(&map->most[to], &old->most[from], old->box.columns);
+            for (uint32_t i = 0; i < old->box.columns; i++)
+                SNOW_MAP_PUT(map->tile[to + i], SNOW_MAP_GET(old->tile[from + i]));
         }
     }
+}
+
+static bool is_near_side(const range *inner, int32_t i, int32_t j, int32_t k)
+{
+    const int32_t place[3] = {i, j, k};
+    int32_t least = FAR_REACH;
+    for (int side = 0; side < 3; side++)
+        least = at_most(least, at_most(place[side] - inner->first[side], inner->last[side] - place[side]));
+    return least < FAR_REACH;
+}
+
+/* What special tiles near the old sides say about what lies beyond. */
+static void spread_beyond(snow_space_map *map, const snow_space_box *old)
+{
+    range inner = place_of(map, old);
+    for (int32_t z = inner.first[2]; z <= inner.last[2]; z++)
+        for (int32_t y = inner.first[1]; y <= inner.last[1]; y++)
+            for (int32_t x = inner.first[0]; x <= inner.last[0]; x++)
+                if (is_near_side(&inner, x, y, z) && holds_special(map, tile_at(map, x, y, z)))
+                    spread_tile(map, x, y, z);
 }
 
 snow_status snow_space_map_widen(snow_space_map *map, snow_heap *heap, snow_space_box box)
@@ -421,7 +434,7 @@ snow_status snow_space_map_widen(snow_space_map *map, snow_heap *heap, snow_spac
         return status;
     take_over(map, &old);
     uncover(&old, heap);
-    spread_all_tiles(map);
+    spread_beyond(map, &old.box);
     return SNOW_OK;
 }
 
@@ -488,12 +501,14 @@ static void lower_lines(snow_space_map *map, int32_t u, int32_t v, int32_t w)
     const snow_space_print *print = snow_space_print_of(map->prints, (uint32_t)u, (uint32_t)v, (uint32_t)w);
     range all = lines_round(map, u, v, w);
     for (int32_t k = all.first[2]; k <= all.last[2]; k++) {
+        int layers = 4 * k - floor_of(w, 2);
         for (int32_t j = all.first[1]; j <= all.last[1]; j++) {
+            int rows = 4 * j - floor_of(v, 2);
+            uint32_t row = tile_at(map, 0, j / 2, k / 2);
             for (int32_t i = all.first[0]; i <= all.last[0]; i++) {
-                uint32_t tile = tile_at(map, i / 2, j / 2, k / 2);
+                uint32_t tile = row + (uint32_t)i / 2;
                 uint32_t line = line_of(map, tile, snow_space_octant((uint32_t)i, (uint32_t)j, (uint32_t)k));
-                if (snow_space_line_lower(&map->line[line], print, i - floor_of(u, 8), 4 * j - floor_of(v, 2),
-                                          4 * k - floor_of(w, 2)))
+                if (map->lower(&map->line[line], print, i - floor_of(u, 8), rows, layers))
                     has_changed(map, tile);
             }
         }

@@ -69,11 +69,12 @@ typedef struct snow_space_map {
     /* What a block with a special site does to a layer of a page: by its place in the layer, and the page. */
     int8_t near_in_layer[16][SNOW_SPACE_SIDES * SNOW_SPACE_SIDES][16];
     snow_space_print *prints;
+    snow_space_lower lower;
     uint64_t landing; /* for what changes now */
 } snow_space_map;
 
 snow_status snow_space_map_start(snow_space_map *map, snow_heap *heap, const snow_exits *exits, bool keeps_matter,
-                                 snow_space_box box);
+                                 snow_space_box box, snow_isa isa);
 void snow_space_map_end(snow_space_map *map, snow_heap *heap);
 
 /* Covers another box, which holds the old one. */
