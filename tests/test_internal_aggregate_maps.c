@@ -148,7 +148,7 @@ static uint32_t look(const world *self, snow_site site)
     if (self->lattice == SNOW_AGGREGATE_CUBIC)
         return snow_space_map_look(&self->space, snow_space_map_find(&self->space, tile_of(self, site)), site.x, site.y,
                                    site.z);
-    return snow_plane_page_look(snow_plane_map_find(&self->plane, tile_of(self, site)), site.x, site.y);
+    return snow_plane_map_look(&self->plane, snow_plane_map_find(&self->plane, tile_of(self, site)), site.x, site.y);
 }
 
 static bool has_changed(const world *self, snow_site site, uint64_t since)

@@ -63,7 +63,7 @@ COPIED uint32_t look(const snow_ground *ground, snow_aggregate_lattice lattice, 
 {
     if (lattice == SNOW_AGGREGATE_CUBIC)
         return snow_space_map_look(&ground->space, snow_space_map_find(&ground->space, tile), site.x, site.y, site.z);
-    return snow_plane_page_look(snow_plane_map_find(&ground->plane, tile), site.x, site.y);
+    return snow_plane_map_look(&ground->plane, snow_plane_map_find(&ground->plane, tile), site.x, site.y);
 }
 
 COPIED bool has_changed(const snow_ground *ground, snow_aggregate_lattice lattice, int32_t tile, uint64_t since)

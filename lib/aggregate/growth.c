@@ -92,6 +92,7 @@ static snow_status fit(snow_growth *growth, snow_heap *heap, int64_t farthest)
         if (status == SNOW_OK)
             growth->ground.source = source;
         snow_squads_choose(&growth->ground, growth->rules.isa);
+        snow_ahead_call_back(&growth->ahead);
         snow_ahead_resume(&growth->ahead);
     }
     if (status == SNOW_OK)
@@ -102,12 +103,12 @@ static snow_status fit(snow_growth *growth, snow_heap *heap, int64_t farthest)
 static snow_status reserve(snow_growth *growth, snow_heap *heap)
 {
     snow_ground *ground = &growth->ground;
-    if (!is_in_space(growth))
-        return snow_plane_map_reserve(&ground->plane, heap);
-    if (snow_space_map_has_room(&ground->space))
+    bool space = is_in_space(growth);
+    if (space ? snow_space_map_has_room(&ground->space) : snow_plane_map_has_room(&ground->plane))
         return SNOW_OK;
     snow_ahead_pause(&growth->ahead);
-    snow_status status = snow_space_map_reserve(&ground->space, heap);
+    snow_status status =
+        space ? snow_space_map_reserve(&ground->space, heap) : snow_plane_map_reserve(&ground->plane, heap);
     snow_ahead_resume(&growth->ahead);
     return status;
 }

@@ -15,16 +15,14 @@ typedef struct question {
     lanes u, v; /* from the corner of the map; 0 outside */
     lanes inside;
     lanes tile; /* 0 outside */
-    wide page;
-    lanes near, is_close;
-    wide line;
+    lanes page, near, is_close, line;
     lanes seen; /* 0, a class, or SNOW_MAP_BEYOND */
     lanes class, radius, first;
     wide pick, exit;
     lanes is_thrown; /* onto a circle */
 } question;
 
-/* What follows is snow_plane_map_tile(), snow_plane_map_find() and snow_plane_page_look(). */
+/* What follows is snow_plane_map_tile(), snow_plane_map_find() and snow_plane_map_look(). */
 INLINE void find_tile(const snow_plane_map *map, question *q)
 {
     lanes u = _mm256_sub_epi32(q->x, all((uint32_t)map->box.x));
@@ -47,36 +45,39 @@ INLINE lanes told_by(const question *q)
 
 INLINE void find_page(const snow_plane_map *map, question *q)
 {
-    q->page = fetch_from((const void *)map->tile, widened(q->tile));
+    q->page = _mm256_i32gather_epi32((const int *)map->tile, q->tile, 4);
 }
 
-INLINE void look_near(question *q)
+INLINE void look_near(const snow_plane_map *map, question *q)
 {
     lanes row = _mm256_and_si256(_mm256_slli_epi32(q->v, 1), all(56));
     lanes column = _mm256_and_si256(_mm256_srli_epi32(q->u, 2), all(7));
-    wide byte = fetch(plus(q->page, widened(_mm256_or_si256(row, column))));
-    q->near = _mm256_and_si256(lower_halves(byte), all(255));
+    lanes place = _mm256_or_si256(_mm256_slli_epi32(q->page, 6), _mm256_or_si256(row, column));
+    lanes bytes = _mm256_i32gather_epi32((const int *)map->page, place, 1);
+    q->near = _mm256_and_si256(bytes, all(255));
     q->is_close = _mm256_cmpgt_epi32(all(2), q->near);
 }
 
-INLINE void find_line(question *q)
+/* Elements of an array of 32 bits each where a lane's mask is set; 0 elsewhere. */
+INLINE lanes fetch_close(const void *array, lanes index, const question *q)
 {
-    lanes row = _mm256_and_si256(q->v, all(16));
-    lanes column = _mm256_and_si256(_mm256_srli_epi32(q->u, 1), all(8));
-    lanes place = _mm256_add_epi32(_mm256_or_si256(row, column), all(offsetof(snow_plane_page, line)));
-    q->line = fetch_some(plus(q->page, widened(place)), q->is_close);
+    return _mm256_mask_i32gather_epi32(_mm256_setzero_si256(), array, index, q->is_close, 4);
 }
 
-/* Two rows of a line at once: eight bytes. */
-INLINE void look_closely(question *q)
+INLINE void find_line(const snow_plane_map *map, question *q)
 {
-    lanes two_rows = _mm256_slli_epi32(_mm256_and_si256(q->v, all(14)), 2);
-    wide code = fetch_some(plus(q->line, widened(two_rows)), q->is_close);
-    lanes row = _mm256_slli_epi32(_mm256_and_si256(q->v, all(1)), 5);
+    lanes row = _mm256_and_si256(_mm256_srli_epi32(q->v, 3), all(2));
+    lanes column = _mm256_and_si256(_mm256_srli_epi32(q->u, 4), all(1));
+    lanes place = _mm256_or_si256(_mm256_slli_epi32(q->page, 2), _mm256_or_si256(row, column));
+    q->line = fetch_close(map->quarters, place, q);
+}
+
+INLINE void look_closely(const snow_plane_map *map, question *q)
+{
+    lanes row = _mm256_or_si256(_mm256_slli_epi32(q->line, 4), _mm256_and_si256(q->v, all(15)));
     lanes column = _mm256_slli_epi32(_mm256_and_si256(q->u, all(15)), 1);
-    wide bit = widened(_mm256_or_si256(row, column));
-    code = shifted_down(code, bit);
-    lanes exact = _mm256_and_si256(_mm256_andnot_si256(lower_halves(code), all(3)), q->is_close);
+    lanes code = _mm256_srlv_epi32(fetch_close(map->line, row, q), column);
+    lanes exact = _mm256_and_si256(_mm256_andnot_si256(code, all(3)), q->is_close);
     q->seen = choose(q->inside, _mm256_max_epu32(q->near, exact), all(SNOW_MAP_BEYOND));
 }
 
@@ -84,9 +85,9 @@ INLINE void look(const snow_plane_map *map, question *q)
 {
     find_tile(map, q);
     find_page(map, q);
-    look_near(q);
-    find_line(q);
-    look_closely(q);
+    look_near(map, q);
+    find_line(map, q);
+    look_closely(map, q);
 }
 
 INLINE lanes class_outside(const snow_ground *ground, bool hexagonal, const question *q)
@@ -193,9 +194,9 @@ INLINE void go_on(const snow_ground *ground, bool hexagonal, question *q, snow_s
         store(snow_squad_tiles(&squads[i], squads[i].next)->tile, told_by(&q[i]));
     }
     EACH(i) find_page(&ground->plane, &q[i]);
-    EACH(i) look_near(&q[i]);
-    EACH(i) find_line(&q[i]);
-    EACH(i) look_closely(&q[i]);
+    EACH(i) look_near(&ground->plane, &q[i]);
+    EACH(i) find_line(&ground->plane, &q[i]);
+    EACH(i) look_closely(&ground->plane, &q[i]);
     EACH(i) store(snow_squad_row(&squads[i], squads[i].next++)->answer, q[i].seen);
     EACH(i) find_table(ground, hexagonal, &q[i]);
     EACH(i) find_exit(&ground->exits, &q[i], block[i][half]);

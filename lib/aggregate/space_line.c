@@ -121,19 +121,20 @@ static eight nearer(eight known, eight print)
 bool snow_space_line_lower(snow_space_line *line, const snow_space_print *print, int lines, int rows, int layers)
 {
     enum { WORDS = 16 / sizeof line->word[0] };
-    const int16_t(*across)[ROWS][4] = &print->pair[lines + 1][PAIRS / 2];
-    int first = 2 * greater(0, -PAIRS / 2 - layers);
-    int end = 2 * lesser(4, PAIRS / 2 + 1 - layers);
-    eight now[8];
-    eight lowers = {0};
-    for (int n = first; n < end; n++) {
-        eight known = get(&line->word[n * WORDS]);
-        now[n] = nearer(known, get(across[layers + n / 2][rows + n % 2 * 2 + ROWS / 2]));
-        lowers |= now[n] ^ known;
+    int first = greater(0, -PAIRS / 2 - layers);
+    int end = lesser(4, PAIRS / 2 + 1 - layers);
+    const int16_t(*across)[ROWS][4] = &print->pair[lines + 1][PAIRS / 2 + layers];
+    eight any = {0};
+    for (int layer = first; layer < end; layer++) {
+        const int16_t(*row)[4] = &across[layer][rows + ROWS / 2];
+        _Atomic uintptr_t *word = &line->word[layer * 2 * WORDS];
+        eight now[2] = {nearer(get(word), get(row)), nearer(get(word + WORDS), get(row + 2))};
+        eight differs = (now[0] ^ get(word)) | (now[1] ^ get(word + WORDS));
+        any |= differs;
+        if (has_any(differs)) {
+            put(word, now[0]);
+            put(word + WORDS, now[1]);
+        }
     }
-    if (!has_any(lowers))
-        return false;
-    for (int n = first; n < end; n++)
-        put(&line->word[n * WORDS], now[n]);
-    return true;
+    return has_any(any);
 }

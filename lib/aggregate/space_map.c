@@ -89,6 +89,7 @@ static snow_status cover(snow_space_map *map, snow_heap *heap, snow_space_box bo
         snow_heap_put(heap, (void *)tile);
         return heap->refusal;
     }
+    memset(most, UINT8_MAX, tiles_of(box));
     for (size_t i = 0; i < tiles_of(box); i++) {
         atomic_init(&tile[i], SNOW_SPACE_SHARED - 1);
         changed[i] = (uint32_t)map->landing;
@@ -107,17 +108,6 @@ static void uncover(const snow_space_map *map, snow_heap *heap)
     snow_heap_put(heap, (void *)map->tile);
 }
 
-/* Moves the first ones of an array to one of another size. */
-static void *moved(snow_heap *heap, void *array, size_t count, size_t room, size_t size)
-{
-    void *larger = snow_heap_get_raw(heap, room, size);
-    if (larger != NULL && count > 0)
-        memcpy(larger, array, count * size);
-    if (larger != NULL)
-        snow_heap_put(heap, array);
-    return larger;
-}
-
 static uint32_t more_than(uint32_t room)
 {
     return room + room / 4;
@@ -128,11 +118,11 @@ static snow_status add_pages(snow_space_map *map, snow_heap *heap)
     uint32_t room = more_than(map->pages + PAGES_OF_A_SITE);
     if (room > MOST_PAGES)
         return SNOW_ERROR_TOO_LARGE;
-    snow_space_near *near = moved(heap, map->near, map->pages, room, sizeof *near);
+    snow_space_near *near = snow_heap_move(heap, map->near, map->pages, room, sizeof *near);
     if (near == NULL)
         return heap->refusal;
     map->near = near;
-    snow_space_links *links = moved(heap, map->links, map->pages, room, sizeof *links);
+    snow_space_links *links = snow_heap_move(heap, map->links, map->pages, room, sizeof *links);
     if (links == NULL)
         return heap->refusal;
     map->links = links;
@@ -145,13 +135,13 @@ static snow_status add_lines(snow_space_map *map, snow_heap *heap)
     uint32_t room = more_than(map->lines + LINES_OF_A_SITE);
     if (room > MOST_LINES)
         return SNOW_ERROR_TOO_LARGE;
-    snow_space_line *line = moved(heap, map->line, map->lines, room, sizeof *line);
+    snow_space_line *line = snow_heap_move(heap, map->line, map->lines, room, sizeof *line);
     if (line == NULL)
         return heap->refusal;
     map->line = line;
     snow_space_matter *matter = NULL;
     if (map->keeps_matter) {
-        matter = moved(heap, map->matter, map->lines, room, sizeof *matter);
+        matter = snow_heap_move(heap, map->matter, map->lines, room, sizeof *matter);
         if (matter == NULL)
             return heap->refusal;
     }
@@ -354,12 +344,6 @@ static int32_t apart_from_tile(int32_t block, int32_t tile)
     return at_least(at_least(4 * tile - block, block - 4 * tile - 3), 0);
 }
 
-/* Nothing would be nearer in a tile at this distance. */
-static bool is_nearer_everywhere(const snow_space_map *map, uint32_t tile, int32_t blocks)
-{
-    return SNOW_MAP_GET(map->tile[tile]) >= SNOW_SPACE_SHARED && map->most[tile] <= map->near_number[blocks];
-}
-
 /* The block (i, j, k) has got its first special site. */
 static void spread_near(snow_space_map *map, int32_t i, int32_t j, int32_t k)
 {
@@ -367,10 +351,10 @@ static void spread_near(snow_space_map *map, int32_t i, int32_t j, int32_t k)
     for (int32_t z = tiles.first[2]; z <= tiles.last[2]; z++) {
         for (int32_t y = tiles.first[1]; y <= tiles.last[1]; y++) {
             int32_t across = at_least(apart_from_tile(j, y), apart_from_tile(k, z));
-            for (int32_t x = tiles.first[0]; x <= tiles.last[0]; x++) {
-                uint32_t tile = tile_at(map, x, y, z);
+            uint32_t tile = tile_at(map, tiles.first[0], y, z);
+            for (int32_t x = tiles.first[0]; x <= tiles.last[0]; x++, tile++) {
                 int32_t side = (y - j / 4 + SIDES / 2) * SIDES + x - i / 4 + SIDES / 2;
-                if (!is_nearer_everywhere(map, tile, at_least(apart_from_tile(i, x), across)))
+                if (map->most[tile] > map->near_number[at_least(apart_from_tile(i, x), across)])
                     lower_page(map, tile, map->near_in_layer[j % 4 * 4 + i % 4][side], 4 * z - k);
             }
         }

@@ -55,7 +55,7 @@ typedef struct snow_space_map {
     snow_space_box box;
     _Atomic uint32_t *tile; /* its page */
     uint32_t *changed;      /* what is known of each tile: last by the landing of this number (its last 32 bits) */
-    uint8_t *most;          /* nothing is greater in a tile's own page */
+    uint8_t *most;          /* nothing is greater in a tile's own page; 255 if it has none */
     /* Pages. */
     snow_space_near *near;
     snow_space_links *links;
