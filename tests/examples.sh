@@ -566,8 +566,9 @@ test_aggregate() {
     run aggregate --obstacles ring --particles 300
     check 'aggregate --obstacles: a ring shuts the seed in' complained aggregate 2
     grep -vx '0 -8' ring >gap
-    run aggregate --obstacles gap --particles 300 --sites grown
+    run aggregate --obstacles gap --particles 300 --sites grown --size 64 --out gap.png
     check 'aggregate --obstacles: through a gap' printed "$aggregate_line"
+    check 'aggregate --obstacles: a picture' is_png gap.png
     check 'aggregate --obstacles: none is filled' [ -z "$(sort gap grown | uniq -d)" ]
     echo '1 2 x' >wrong
     run aggregate --start wrong

@@ -5,6 +5,19 @@
 #include <math.h>
 #include <stdlib.h>
 
+static snow_grid *reloaded(const snow_grid *grid)
+{
+    size_t size = 0;
+    assert_ok(snow_save(grid, NULL, 0, &size));
+    void *bytes = malloc(size);
+    assert_non_null(bytes);
+    assert_ok(snow_save(grid, bytes, size, &size));
+    snow_grid *copy = NULL;
+    assert_ok(snow_load(bytes, size, NULL, &copy));
+    free(bytes);
+    return copy;
+}
+
 static const snow_site steps_of_four[] = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}};
 static const snow_site steps_of_six[] = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {1, -1, 0}, {-1, 1, 0}};
 static const snow_site steps_in_space[] = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
@@ -377,6 +390,33 @@ static void fields_that_are_not_kept_are_refused(void **state)
     }
 }
 
+static void obstacles_are_those_that_were_given(void **state)
+{
+    (void)state;
+    static const snow_site plane[] = {{3, 0, 0}, {0, -3, 0}, {-3, 0, 0}};
+    static const snow_site space[] = {{3, 0, -2}, {0, -3, 5}, {-3, 0, 0}};
+    for (int lattice = SNOW_AGGREGATE_SQUARE; lattice <= SNOW_AGGREGATE_CUBIC; lattice++) {
+        const snow_site *given = lattice == SNOW_AGGREGATE_CUBIC ? space : plane;
+        snow_aggregate_params params = aggregate_scene(SNOW_AGGREGATE_WITTEN_SANDER);
+        params.lattice = (snow_aggregate_lattice)lattice;
+        params.obstacles = given;
+        params.obstacle_count = COUNT_OF(plane);
+        snow_grid *grid = make_aggregate(&params, NULL);
+        assert_ok(snow_step(grid, 50));
+        snow_grid *copy = reloaded(grid);
+        snow_site got[COUNT_OF(plane)] = {{7, 7, 7}};
+        size_t count = 0;
+        assert_status(SNOW_ERROR_NULL, snow_aggregate_obstacles(copy, NULL, 0, NULL));
+        assert_status(SNOW_ERROR_BUFFER, snow_aggregate_obstacles(copy, got, COUNT_OF(got) - 1, &count));
+        assert_int_equal(COUNT_OF(got), count);
+        assert_int_equal(7, got[0].x);
+        assert_ok(snow_aggregate_obstacles(copy, got, COUNT_OF(got), NULL));
+        assert_memory_equal(given, got, sizeof got);
+        snow_destroy(copy);
+        snow_destroy(grid);
+    }
+}
+
 static void scenes_say_what_they_have_not(void **state)
 {
     (void)state;
@@ -543,6 +583,7 @@ static void nothing_is_asked_of_nothing_or_of_another_model(void **state)
         assert_status(expected, snow_aggregate_points(grid, 0, &low, 1));
         assert_status(expected, snow_aggregate_parents(grid, NULL, 0, &count));
         assert_status(expected, snow_aggregate_order_at(grid, site, &order));
+        assert_status(expected, snow_aggregate_obstacles(grid, &site, 1, &count));
         assert_status(expected, snow_aggregate_bounds(grid, &low, &high));
         assert_status(expected, snow_aggregate_gyration(grid, &number, &radius, 1));
         assert_status(expected, snow_aggregate_mass(grid, &radius, &number, 1));
@@ -649,19 +690,6 @@ static void every_scene_knows_its_bounds(void **state)
     }
 }
 
-static snow_grid *reloaded(const snow_grid *grid)
-{
-    size_t size = 0;
-    assert_ok(snow_save(grid, NULL, 0, &size));
-    void *bytes = malloc(size);
-    assert_non_null(bytes);
-    assert_ok(snow_save(grid, bytes, size, &size));
-    snow_grid *copy = NULL;
-    assert_ok(snow_load(bytes, size, NULL, &copy));
-    free(bytes);
-    return copy;
-}
-
 /* Each site of the periodic box, those at its sides too. */
 static void check_box_fields(const snow_grid *grid)
 {
@@ -732,6 +760,7 @@ int main(void)
         cmocka_unit_test(the_shores_profile_and_fields_are_its_land),
         cmocka_unit_test(fields_are_those_of_the_particles),
         cmocka_unit_test(fields_that_are_not_kept_are_refused),
+        cmocka_unit_test(obstacles_are_those_that_were_given),
         cmocka_unit_test(scenes_say_what_they_have_not),
         cmocka_unit_test(measures_of_cells_need_the_cells),
         cmocka_unit_test(every_scene_knows_its_bounds),

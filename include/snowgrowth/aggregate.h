@@ -228,6 +228,10 @@ SNOW_API snow_status snow_aggregate_create(const snow_aggregate_params *params, 
 
 /**
  * @brief Reads the scene of a grid: as it was given, without the lists of seeds and obstacles.
+ *
+ * Seeds are the first of the particles; snow_aggregate_obstacles() tells the
+ * obstacles.
+ *
  * @param grid a grid of this model.
  * @param params initialised; filled in.
  * @return ::SNOW_OK, ::SNOW_ERROR_NULL, ::SNOW_ERROR_STRUCT_SIZE,
@@ -275,6 +279,19 @@ SNOW_API snow_status snow_aggregate_walkers(const snow_grid *grid, uint64_t *cou
  *         lattice. Cost: proportional to count.
  */
 SNOW_API snow_status snow_aggregate_sites(const snow_grid *grid, uint64_t first, snow_site *sites, size_t count);
+
+/**
+ * @brief The sites of the obstacles, in the order in which they were given.
+ * @param grid a grid of this model.
+ * @param sites receives them; NULL: only the count is wanted.
+ * @param capacity how many the array holds.
+ * @param count receives how many there are; may be NULL unless sites is.
+ * @return ::SNOW_OK, ::SNOW_ERROR_NULL; ::SNOW_ERROR_BUFFER when capacity is
+ *         too small; ::SNOW_ERROR_UNSUPPORTED for another model. Cost:
+ *         proportional to their number.
+ */
+SNOW_API snow_status snow_aggregate_obstacles(const snow_grid *grid, snow_site *sites, size_t capacity,
+                                              size_t *count);
 
 /**
  * @brief Where particles are.
