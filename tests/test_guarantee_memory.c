@@ -256,6 +256,74 @@ static void memory_limits_are_kept(void **state)
     }
 }
 
+/* Two particles with much air between them: a few bytes that stand for a large map. */
+static saved_life save_far_apart(void)
+{
+    static const snow_site seeds[] = {{0, 0, 0}, {900, 0, 0}};
+    snow_aggregate_params params = aggregate_scene(SNOW_AGGREGATE_WITTEN_SANDER);
+    params.lattice = SNOW_AGGREGATE_CUBIC;
+    params.seeds = seeds;
+    params.seed_count = COUNT_OF(seeds);
+    snow_grid *grid = make_aggregate(&params, NULL);
+    saved_life saved = save_life(grid);
+    snow_destroy(grid);
+    return saved;
+}
+
+/* Data that are sound may need more than their size: then the limit is kept, and it is the grid's from then on. */
+static void keep_to_limits(making *self)
+{
+    test_allocator allocator = {0};
+    snow_options options = allocator_options(&allocator);
+    snow_grid *grid = NULL;
+    assert_ok(self->make(self, &options, &grid));
+    snow_destroy(grid);
+    uint64_t needed = allocator.peak_bytes;
+    for (uint64_t limit = 1; limit < needed; limit += 1 + needed / 11) {
+        allocator = (test_allocator){0};
+        options.memory_limit = limit;
+        grid = untouched;
+        assert_status(SNOW_ERROR_MEMORY_LIMIT, self->make(self, &options, &grid));
+        assert_ptr_equal(untouched, grid);
+        assert_true(allocator.peak_bytes <= limit);
+        assert_int_equal(0, allocator.live_blocks);
+    }
+    options.memory_limit = needed;
+    assert_ok(self->make(self, &options, &grid));
+    snow_status status = snow_step(grid, 40);
+    assert_true(status == SNOW_OK || status == SNOW_ERROR_MEMORY_LIMIT);
+    assert_true(allocator.peak_bytes <= needed);
+    snow_destroy(grid);
+}
+
+static void load_within_limits(const saved_life *saved)
+{
+    making all = {.saved = *saved, .make = make_loaded};
+    keep_to_limits(&all);
+    all.make = make_read;
+    keep_to_limits(&all);
+}
+
+static void loads_keep_to_the_limit(void **state)
+{
+    (void)state;
+    saved_life far_apart = save_far_apart();
+    assert_true(far_apart.size < 500);
+    load_within_limits(&far_apart);
+    free_life(&far_apart);
+    for (size_t i = 0; i < test_life_count; i++) {
+        snow_grid *grid = start_life(&test_lives[i], false, NULL);
+        assert_ok(snow_step(grid, 30));
+        saved_life saved = save_life(grid);
+        snow_destroy(grid);
+        load_within_limits(&saved);
+        free_life(&saved);
+    }
+    static unsigned char text[] = "x = 3, y = 1, rule = B1/S0123456H\n3o!";
+    making pattern = {.make = make_read_pattern, .saved = {text, sizeof text - 1, 0}};
+    keep_to_limits(&pattern);
+}
+
 /* Whatever the head of a saved grid is made to say. */
 static void hostile_data_cost_little(void **state)
 {
@@ -457,6 +525,7 @@ int main(void)
         cmocka_unit_test(every_call_survives_any_failure),
         cmocka_unit_test(making_survives_any_failure),
         cmocka_unit_test(memory_limits_are_kept),
+        cmocka_unit_test(loads_keep_to_the_limit),
         cmocka_unit_test(hostile_data_cost_little),
         cmocka_unit_test(products_do_not_overflow),
         cmocka_unit_test(counts_do_not_overflow),
