@@ -1,4 +1,4 @@
-/* The exit laws of empty regions against exact fractions, and the kernels against known values and their equation. */
+/* The exit laws of empty regions against exact fractions, blurred circles, and the kernels against known values and their equation. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -7,6 +7,7 @@
 
 #include <cmocka.h>
 
+#include "aggregate/blur.h"
 #include "aggregate/exits.h"
 #include "aggregate/potential.h"
 #include "aggregate/source.h"
@@ -184,6 +185,63 @@ static void spheres_keep_harmonic_functions(void **state)
     }
 }
 
+/* The Fourier transform of the blur: of ten numbers of 4 bits, uniform and independent. */
+static double blur_at(double frequency)
+{
+    const double pi = 3.14159265358979323846;
+    double transform = 1;
+    for (int part = 0; part < 10; part++) {
+        double x = pi * remainder(frequency * snow_blur(UINT64_C(1) << (4 * part)), 1);
+        if (fabs(x) > 1e-9)
+            transform *= fabs(sin(16 * x) / (16 * sin(x)));
+    }
+    return transform;
+}
+
+static void blurs_are_sums_of_digits(void **state)
+{
+    (void)state;
+    double sum = 0;
+    for (int bit = 0; bit < 40; bit++) {
+        double part = snow_blur(UINT64_C(1) << bit);
+        near(part, snow_blur(UINT64_C(1) << (bit - bit % 4)) * (1 << bit % 4), 0);
+        sum += part;
+    }
+    near(sum, snow_blur(UINT64_MAX), 0);
+    near(0, snow_blur(~UINT64_C(0) << 40), 0);
+    assert_true(sum > 15 && sum < SNOW_BLUR_WIDTH);
+}
+
+/* The lengths of the frequencies of each lattice, and more, are the roots of n and of 4/3 n. What is left of the
+   roundings at frequency f, a sum over a circle round the cluster, is less than the transform times f^-3/2. */
+static void blurs_hide_the_lattice(void **state)
+{
+    (void)state;
+    assert_true(blur_at(1) < 2e-12);
+    assert_true(blur_at(sqrt(4.0 / 3)) < 2e-12);
+    for (int n = 1; n < 100000; n++) {
+        double frequencies[2] = {sqrt(n), sqrt(n * 4.0 / 3)};
+        for (int i = 0; i < 2; i++)
+            assert_true(blur_at(frequencies[i]) < 2e-10 * pow(frequencies[i], 1.5));
+    }
+    assert_true(blur_at(0.1) > 0.3); /* and where it is not small */
+}
+
+static void directions_are_those_of_the_angle(void **state)
+{
+    (void)state;
+    const long double quarter = 0.785398163397448309615660845819875721L;
+    for (uint64_t i = 0; i < 80000; i++) {
+        uint64_t number = i < 16 ? i << 60 | (i % 2 == 0 ? 0 : (UINT64_C(1) << 60) - 1) : i * UINT64_C(0x9E3779B97F4A7C15);
+        long double angle = quarter * ((long double)(number >> 40 & 0x1FFFFF) + 0.5L) / 0x200000;
+        long double along[2] = {cosl(angle), sinl(angle)};
+        bool swaps = number >> 61 & 1;
+        snow_vector unit = snow_direction_of(number);
+        near((double)along[swaps] * (number >> 63 != 0 ? -1 : 1), unit.x, 4e-15);
+        near((double)along[!swaps] * ((number >> 62 & 1) != 0 ? -1 : 1), unit.y, 4e-15);
+    }
+}
+
 static void kernels_have_their_known_values(void **state)
 {
     (void)state;
@@ -259,6 +317,9 @@ int main(void)
         cmocka_unit_test(laws_add_up_to_one),
         cmocka_unit_test(square_exits_keep_a_harmonic_function),
         cmocka_unit_test(spheres_keep_harmonic_functions),
+        cmocka_unit_test(blurs_are_sums_of_digits),
+        cmocka_unit_test(blurs_hide_the_lattice),
+        cmocka_unit_test(directions_are_those_of_the_angle),
         cmocka_unit_test(kernels_have_their_known_values),
         cmocka_unit_test(kernels_are_harmonic_everywhere),
     };

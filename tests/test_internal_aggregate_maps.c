@@ -100,7 +100,8 @@ static void start(world *self, snow_aggregate_lattice lattice)
     self->heap = new_heap();
     assert_int_equal(SNOW_OK, snow_exits_start(&self->exits, &self->heap, lattice));
     if (lattice == SNOW_AGGREGATE_CUBIC)
-        assert_int_equal(SNOW_OK, snow_space_map_start(&self->space, &self->heap, &self->exits, false, small_space));
+        assert_int_equal(SNOW_OK, snow_space_map_start(&self->space, &self->heap, &self->exits, false, small_space,
+                                                     SNOW_ISA_BASELINE));
     else
         assert_int_equal(SNOW_OK, snow_plane_map_start(&self->plane, &self->heap, &self->exits, false, small_plane));
 }
@@ -136,19 +137,26 @@ static void add(world *self, snow_site site, uint64_t landing)
     }
 }
 
+static int32_t tile_of(const world *self, snow_site site)
+{
+    if (self->lattice == SNOW_AGGREGATE_CUBIC)
+        return snow_space_map_tile(&self->space, site.x, site.y, site.z);
+    return snow_plane_map_tile(&self->plane, site.x, site.y);
+}
+
 static uint32_t look(const world *self, snow_site site)
 {
     if (self->lattice == SNOW_AGGREGATE_CUBIC)
-        return snow_space_page_look(snow_space_map_find(&self->space, site.x, site.y, site.z), site.x, site.y, site.z)
-            .seen;
-    return snow_plane_page_look(snow_plane_map_find(&self->plane, site.x, site.y), site.x, site.y);
+        return snow_space_map_look(&self->space, snow_space_map_find(&self->space, tile_of(self, site)), site.x, site.y,
+                                   site.z);
+    return snow_plane_map_look(&self->plane, snow_plane_map_find(&self->plane, tile_of(self, site)), site.x, site.y);
 }
 
 static bool has_changed(const world *self, snow_site site, uint64_t since)
 {
     if (self->lattice == SNOW_AGGREGATE_CUBIC)
-        return snow_space_map_find(&self->space, site.x, site.y, site.z)->changed > since;
-    return snow_plane_map_has_changed(&self->plane, site.x, site.y, since);
+        return snow_space_map_has_changed(&self->space, tile_of(self, site), since);
+    return snow_plane_map_has_changed(&self->plane, tile_of(self, site), since);
 }
 
 static snow_site place(const world *self, uint32_t *number, int32_t reach)

@@ -257,7 +257,8 @@ SNOW_API snow_status snow_frozen(const snow_grid *grid, uint64_t *cells);
  * @brief Greatest Euclidean distance of a frozen cell from the origin.
  * @param grid the grid.
  * @param radius receives it, in lattice spacings; 0 when nothing is frozen.
- * @return ::SNOW_OK or ::SNOW_ERROR_NULL. Cost: constant.
+ * @return ::SNOW_OK or ::SNOW_ERROR_NULL. Cost: constant; where frozen cells
+ *         move (::SNOW_AGGREGATE_CLUSTER_CLUSTER) one pass over them.
  */
 SNOW_API snow_status snow_tip_radius(const snow_grid *grid, double *radius);
 
@@ -266,7 +267,7 @@ SNOW_API snow_status snow_tip_radius(const snow_grid *grid, double *radius);
  * @param grid the grid.
  * @param bounds receives it; width and height are 0 when nothing is frozen.
  * @return ::SNOW_OK or ::SNOW_ERROR_NULL; ::SNOW_ERROR_TOO_LARGE when a cell
- *         lies 2^30 or more from an axis. Cost: constant.
+ *         lies 2^30 or more from an axis. Cost: as snow_tip_radius().
  */
 SNOW_API snow_status snow_frozen_bounds(const snow_grid *grid, snow_rect *bounds);
 
@@ -274,7 +275,7 @@ SNOW_API snow_status snow_frozen_bounds(const snow_grid *grid, snow_rect *bounds
  * @brief The smallest hexagon that holds every frozen cell.
  * @param grid the grid.
  * @param hexagon receives it; empty when nothing is frozen.
- * @return ::SNOW_OK or ::SNOW_ERROR_NULL. Cost: constant.
+ * @return ::SNOW_OK or ::SNOW_ERROR_NULL. Cost: as snow_tip_radius().
  */
 SNOW_API snow_status snow_frozen_hexagon(const snow_grid *grid, snow_hexagon *hexagon);
 

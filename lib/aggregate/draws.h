@@ -36,25 +36,26 @@ void snow_draws_start(snow_draws *draws, snow_draws_refill refill, uint64_t key,
 void snow_draws_move(snow_draws *draws, uint32_t used);
 
 /* The number that comes next. */
-static inline uint64_t snow_draws_peek(const snow_draws *draws)
-{
-    return draws->number[draws->used % SNOW_DRAWS_AT_ONCE];
-}
-
 static inline uint64_t snow_draws_next(snow_draws *draws)
 {
-    uint64_t number = snow_draws_peek(draws);
-    draws->used++;
     if (draws->used % SNOW_DRAWS_AT_ONCE == 0)
         draws->refill(draws);
-    return number;
+    return draws->number[draws->used++ % SNOW_DRAWS_AT_ONCE];
 }
 
-/* What is left of a block is not used: jumps begin with a block after whatever else takes numbers. */
+/* What is left of a block is not used. */
 static inline void snow_draws_end_block(snow_draws *draws)
 {
     if (draws->used % 2 != 0)
         (void)snow_draws_next(draws);
+}
+
+/* The next block that nothing is used of. */
+static inline void snow_draws_take_block(snow_draws *draws, uint64_t number[2])
+{
+    snow_draws_end_block(draws);
+    number[0] = snow_draws_next(draws);
+    number[1] = snow_draws_next(draws);
 }
 
 /* Uniform in 0 … count − 1, each as likely as the others to count/2^64. */

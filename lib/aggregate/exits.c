@@ -14,9 +14,10 @@ static const int32_t radii_hexagonal[] = {1,  2,  3,  5,  7,  9,  11, 13, 15, 17
                                           29, 33, 37, 41, 49, 57, 65, 81, 97, 113, 129};
 static const int32_t radii_cubic[] = {1,  2,  3,  4,  5,  6,  7,  8,  9,  13, 17,
                                       21, 25, 29, 33, 41, 49, 57, 65, 81, 97, 113};
-/* Hexagonal: regions that are left through circles. */
-static const int32_t radii_of_circles[] = {257, 288, 320, 352,  384,  448,  512,  576,  640,  704,  768, 832,
-                                           896, 1024, 1280, 1536, 1792, 2048, 2560, 3072, 4096, 6144, 8192, 14336};
+/* Hexagonal: regions that are left through circles. They need no tables. */
+static const int32_t radii_of_circles[] = {257,  288,  320,  352,  384,  416,  448,  480,  512,  576,  640,  704,  768,
+                                           832,  896,  960,  1024, 1152, 1280, 1408, 1536, 1664, 1792, 1920, 2048, 2304,
+                                           2560, 2816, 3072, 3584, 4096, 5120, 6144, 7168, 8192, 10240, 12288, 14336};
 
 #define COUNT_OF(array) ((int)(sizeof(array) / sizeof(array)[0]))
 
@@ -153,9 +154,10 @@ snow_status snow_exits_start(snow_exits *exits, snow_heap *heap, snow_aggregate_
         return status;
     }
     exits->circles = exits->classes;
-    if (lattice == SNOW_AGGREGATE_HEXAGONAL)
-        for (int i = 0; i < COUNT_OF(radii_of_circles); i++)
-            exits->table[exits->classes++].radius = radii_of_circles[i];
+    for (int i = 0; lattice == SNOW_AGGREGATE_HEXAGONAL && i < COUNT_OF(radii_of_circles); i++) {
+        exits->circle[exits->classes] = radii_of_circles[i];
+        exits->table[exits->classes++].radius = radii_of_circles[i];
+    }
     sort_classes(exits);
     return SNOW_OK;
 }

@@ -45,6 +45,7 @@ typedef struct snow_exits {
     snow_exit *exit;
     uint8_t class_from[SNOW_EXIT_OCTAVES][SNOW_EXIT_PARTS]; /* for radius 2^n (1 + part/8), rounded up */
     uint32_t place[SNOW_EXIT_CLASSES + 1]; /* for vectors: first column << SNOW_EXIT_RADIUS_BITS | radius */
+    int32_t circle[SNOW_EXIT_CLASSES + 1]; /* the same for circles: their radius */
 } snow_exits;
 
 snow_status snow_exits_start(snow_exits *exits, snow_heap *heap, snow_aggregate_lattice lattice);

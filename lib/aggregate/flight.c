@@ -52,25 +52,25 @@ COPIED int ways(snow_aggregate_lattice lattice)
     return lattice == SNOW_AGGREGATE_SQUARE ? 4 : 6;
 }
 
-COPIED const void *find(const snow_ground *ground, snow_aggregate_lattice lattice, snow_site site)
+COPIED int32_t tile_at(const snow_ground *ground, snow_aggregate_lattice lattice, snow_site site)
 {
     if (lattice == SNOW_AGGREGATE_CUBIC)
-        return snow_space_map_find(&ground->space, site.x, site.y, site.z);
-    return snow_plane_map_find(&ground->plane, site.x, site.y);
+        return snow_space_map_tile(&ground->space, site.x, site.y, site.z);
+    return snow_plane_map_tile(&ground->plane, site.x, site.y);
 }
 
-COPIED uint32_t look(const void *page, snow_aggregate_lattice lattice, snow_site site)
+COPIED uint32_t look(const snow_ground *ground, snow_aggregate_lattice lattice, int32_t tile, snow_site site)
 {
     if (lattice == SNOW_AGGREGATE_CUBIC)
-        return snow_space_page_look(page, site.x, site.y, site.z).seen;
-    return snow_plane_page_look(page, site.x, site.y);
+        return snow_space_map_look(&ground->space, snow_space_map_find(&ground->space, tile), site.x, site.y, site.z);
+    return snow_plane_map_look(&ground->plane, snow_plane_map_find(&ground->plane, tile), site.x, site.y);
 }
 
-COPIED bool has_changed(const snow_ground *ground, snow_aggregate_lattice lattice, snow_site site, uint64_t since)
+COPIED bool has_changed(const snow_ground *ground, snow_aggregate_lattice lattice, int32_t tile, uint64_t since)
 {
     if (lattice == SNOW_AGGREGATE_CUBIC)
-        return snow_space_map_find(&ground->space, site.x, site.y, site.z)->changed > since;
-    return snow_plane_map_has_changed(&ground->plane, site.x, site.y, since);
+        return snow_space_map_has_changed(&ground->space, tile, since);
+    return snow_plane_map_has_changed(&ground->plane, tile, since);
 }
 
 COPIED int matter(const snow_ground *ground, snow_aggregate_lattice lattice, snow_site site)
@@ -201,9 +201,10 @@ COPIED bool trial(const snow_ground *ground, snow_aggregate_lattice lattice, sno
 }
 
 /* What the walker sees: the class, or, at a special site where it may go on, 256 and what is around. */
-COPIED uint32_t see(const snow_ground *ground, snow_aggregate_lattice lattice, bool careful, snow_site site)
+COPIED uint32_t see(const snow_ground *ground, snow_aggregate_lattice lattice, bool careful, int32_t tile,
+                    snow_site site)
 {
-    uint32_t seen = look(find(ground, lattice, site), lattice, site);
+    uint32_t seen = look(ground, lattice, tile, site);
     return careful && seen == 0 ? 256 + (touched(ground, lattice, site) << 9) : seen;
 }
 
@@ -219,7 +220,7 @@ COPIED snow_site leave(const snow_ground *ground, manner how, snow_site site, ui
 {
     const snow_exit_table *table = &ground->exits.table[class];
     if (how.lattice == SNOW_AGGREGATE_HEXAGONAL && RARE(class >= (uint32_t)ground->exits.circles))
-        site = snow_source_circle(site, table->radius, draws);
+        site = snow_source_circle(site, table->radius, snow_draws_next(draws));
     else
         site = jump(table, how.lattice, site, snow_draws_next(draws));
     return how.in_vessel ? fold(&ground->source, how.lattice, site) : site;
@@ -233,19 +234,14 @@ COPIED snow_site leave_ball(const snow_source_of_walkers *source, manner how, sn
     return how.in_vessel ? fold(source, how.lattice, site) : site;
 }
 
-static bool is_outside(const snow_ground *ground, manner how, snow_site site)
-{
-    if (how.lattice == SNOW_AGGREGATE_CUBIC)
-        return snow_space_map_find(&ground->space, site.x, site.y, site.z) == &ground->space.outside;
-    return snow_plane_map_find(&ground->plane, site.x, site.y) == &ground->plane.outside;
-}
-
-/* A turn outside the map. */
+/* A turn outside the map. In space it begins with a block, as lanes want it. */
 COPIED snow_site drift(const snow_ground *ground, manner how, snow_site site, snow_draws *draws)
 {
+    if (how.lattice == SNOW_AGGREGATE_CUBIC)
+        snow_draws_end_block(draws);
     int64_t clear = clear_of(&ground->source, how.lattice, site);
     if (RARE(clear > ground->source.safe))
-        return snow_source_return(&ground->source, site, draws);
+        return snow_source_come_in(&ground->source, site, draws);
     if (how.lattice == SNOW_AGGREGATE_CUBIC) {
         double ball = snow_source_clear_ball(&ground->source, site);
         if (ball >= SNOW_SOURCE_LEAST_BALL)
@@ -259,7 +255,7 @@ COPIED snow_site come_in(const snow_ground *ground, manner how, snow_site site, 
 {
     do
         site = drift(ground, how, site, draws);
-    while (is_outside(ground, how, site));
+    while (tile_at(ground, how.lattice, site) < 0);
     return site;
 }
 
@@ -291,8 +287,10 @@ COPIED void put_at(snow_flight *flight, manner how, snow_site site)
         flight->z = site.z;
 }
 
-COPIED void note(const snow_squad *squad, int lane, manner how, const snow_flight *flight, uint32_t answer)
+COPIED void note(const snow_squad *squad, int lane, manner how, const snow_flight *flight, int32_t tile,
+                 uint32_t answer)
 {
+    snow_squad_tiles(squad, squad->next)->tile[lane] = tile;
     snow_row *row = snow_squad_row(squad, squad->next);
     row->x[lane] = flight->x;
     row->y[lane] = flight->y;
@@ -310,8 +308,9 @@ COPIED void all_go_on(const snow_ground *ground, manner how, snow_squad *squad)
             continue;
         snow_flight *flight = &squad->flight[lane];
         snow_site site = site_of(flight, how);
-        uint32_t answer = see(ground, how.lattice, how.careful, site);
-        note(squad, lane, how, flight, answer);
+        int32_t tile = tile_at(ground, how.lattice, site);
+        uint32_t answer = see(ground, how.lattice, how.careful, tile, site);
+        note(squad, lane, how, flight, tile, answer);
         if (RARE(advance(ground, how, &site, &flight->draws, answer)))
             squad->landed |= 1u << lane;
         put_at(flight, how, site);
@@ -356,7 +355,7 @@ snow_site snow_flight_finish(const snow_ground *ground, snow_flight *flight)
     manner how = manner_of(ground);
     snow_site site = site_of(flight, how);
     while (!flight->landed) {
-        uint32_t answer = see(ground, how.lattice, how.careful, site);
+        uint32_t answer = see(ground, how.lattice, how.careful, tile_at(ground, how.lattice, site), site);
         flight->asked++;
         flight->landed = advance(ground, how, &site, &flight->draws, answer);
     }
@@ -376,7 +375,7 @@ static void set_down(snow_flight *flight, snow_site site, bool landed)
 void snow_flight_start(const snow_ground *ground, snow_flight *flight, uint64_t key, uint64_t walker)
 {
     snow_draws_start(&flight->draws, ground->refill, key, walker, 0);
-    set_down(flight, snow_source_launch(&ground->source, &flight->draws), false);
+    set_down(flight, snow_source_infinity(&ground->source), false);
 }
 
 void snow_flight_resume(const snow_ground *ground, snow_flight *flight, uint64_t key, uint64_t walker, snow_stay stay)
@@ -385,50 +384,20 @@ void snow_flight_resume(const snow_ground *ground, snow_flight *flight, uint64_t
     set_down(flight, stay.site, stay.landed);
 }
 
-/* A turn of a walker that is far away, or leaves a hexagon through a circle. */
-static void help(const snow_ground *ground, snow_flight *flight, uint32_t seen)
+static bool is_outdated(const snow_ground *ground, const snow_squad *squad, int lane, uint32_t row)
 {
     manner how = manner_of(ground);
-    snow_site site = site_of(flight, how);
-    if (seen == SNOW_MAP_BEYOND)
-        site = drift(ground, how, site, &flight->draws);
-    else
-        site = leave(ground, how, site, seen, &flight->draws);
-    put_at(flight, how, site);
-}
-
-void snow_squad_help(const snow_ground *ground, snow_squad *squad, uint32_t still)
-{
-    const snow_row *row = snow_squad_row(squad, squad->next - 1);
-    for (int lane = 0; lane < SNOW_LANES; lane++) {
-        if ((still >> lane & 1) == 0)
-            continue;
-        if (row->answer[lane] == 0) {
-            squad->landed |= 1u << lane;
-            continue;
-        }
-        snow_flight *flight = &squad->flight[lane];
-        flight->x = squad->lanes.x[lane];
-        flight->y = squad->lanes.y[lane];
-        snow_draws_move(&flight->draws, squad->lanes.drawn[lane]);
-        help(ground, flight, row->answer[lane]);
-        snow_squad_enter(squad, lane);
-    }
-}
-
-bool snow_squad_is_outdated(const snow_ground *ground, const snow_squad *squad, int lane, uint32_t row)
-{
-    manner how = manner_of(ground);
+    int32_t tile = snow_squad_tiles(squad, row)->tile[lane];
     snow_site site = snow_squad_asked(squad, lane, row).site;
-    return see(ground, how.lattice, how.careful, site) != snow_squad_row(squad, row)->answer[lane];
+    return see(ground, how.lattice, how.careful, tile, site) != snow_squad_row(squad, row)->answer[lane];
 }
 
 uint32_t snow_squad_outdated(const snow_ground *ground, const snow_squad *squad, int lane, uint32_t first, uint32_t end,
                              uint64_t since)
 {
     for (uint32_t row = first; row != end; row++)
-        if (RARE(has_changed(ground, ground->exits.lattice, snow_squad_asked(squad, lane, row).site, since)) &&
-            snow_squad_is_outdated(ground, squad, lane, row))
+        if (RARE(has_changed(ground, ground->exits.lattice, snow_squad_tiles(squad, row)->tile[lane], since)) &&
+            is_outdated(ground, squad, lane, row))
             return row;
     return end;
 }

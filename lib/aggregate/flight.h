@@ -47,7 +47,7 @@ typedef struct snow_flight {
     snow_draws draws;
 } snow_flight;
 
-/* Launches the walker with these numbers. */
+/* The walker with these numbers sets out, from infinity. */
 void snow_flight_start(const snow_ground *ground, snow_flight *flight, uint64_t key, uint64_t walker);
 
 /* It has been walking before. */

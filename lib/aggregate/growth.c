@@ -29,26 +29,24 @@ static int64_t distance_of(const snow_growth *growth, snow_site site)
     return x * x + y * y + z * z;
 }
 
-/* The least of unit * 1, 2, 3, 4, 6, 8, 12 ... above a quarter more than wanted, and the margin that the maps need. */
-static int64_t extent(int64_t wanted, int64_t unit, int64_t margin)
-{
-    int64_t needed = wanted + wanted / 4 + margin;
-    int64_t size = unit;
-    while (size < needed && size + size / 2 < needed)
-        size *= 2;
-    if (size >= needed)
-        return size;
-    return size == unit ? 2 * unit : size + size / 2;
-}
-
 static int64_t whole(int64_t sites, int64_t unit)
 {
     return (sites + unit - 1) / unit * unit;
 }
 
+/* A quarter more than wanted, and the margin that the maps need, in steps of a sixteenth to an eighth. */
+static int64_t extent(int64_t wanted, int64_t unit, int64_t margin)
+{
+    int64_t needed = wanted + wanted / 4 + margin;
+    int64_t step = unit;
+    while (16 * step < needed)
+        step *= 2;
+    return whole(needed, step);
+}
+
 static snow_plane_box plane_box(const snow_source_of_walkers *source)
 {
-    enum { UNIT = 1024, TILE = 32 };
+    enum { UNIT = 512, TILE = 32 };
     int64_t up = extent(source->reach, UNIT, SNOW_PLANE_MARGIN);
     if (source->width == 0)
         return (snow_plane_box){(int32_t)-up, (int32_t)-up, (uint32_t)(2 * up / TILE), (uint32_t)(2 * up / TILE)};
@@ -92,6 +90,7 @@ static snow_status fit(snow_growth *growth, snow_heap *heap, int64_t farthest)
         if (status == SNOW_OK)
             growth->ground.source = source;
         snow_squads_choose(&growth->ground, growth->rules.isa);
+        snow_ahead_call_back(&growth->ahead);
         snow_ahead_resume(&growth->ahead);
     }
     if (status == SNOW_OK)
@@ -102,7 +101,14 @@ static snow_status fit(snow_growth *growth, snow_heap *heap, int64_t farthest)
 static snow_status reserve(snow_growth *growth, snow_heap *heap)
 {
     snow_ground *ground = &growth->ground;
-    return is_in_space(growth) ? snow_space_map_reserve(&ground->space, heap) : snow_plane_map_reserve(&ground->plane, heap);
+    bool space = is_in_space(growth);
+    if (space ? snow_space_map_has_room(&ground->space) : snow_plane_map_has_room(&ground->plane))
+        return SNOW_OK;
+    snow_ahead_pause(&growth->ahead);
+    snow_status status =
+        space ? snow_space_map_reserve(&ground->space, heap) : snow_plane_map_reserve(&ground->plane, heap);
+    snow_ahead_resume(&growth->ahead);
+    return status;
 }
 
 /* What can fail comes before what shows: a walker that has to come again must find what it found. */
@@ -145,7 +151,7 @@ static snow_status start_map(snow_growth *growth, snow_heap *heap)
     snow_status status;
     if (is_in_space(growth))
         status = snow_space_map_start(&ground->space, heap, &ground->exits, ground->careful,
-                                      space_box(&ground->source));
+                                      space_box(&ground->source), rules->isa);
     else
         status = snow_plane_map_start(&ground->plane, heap, &ground->exits, ground->careful,
                                       plane_box(&ground->source));

@@ -13,13 +13,6 @@ enum { SNOW_MATTER_FILLED = 1, SNOW_MATTER_OBSTACLE = 2 };
 /* The answer of a map where it ends: no class, but a place in the table of classes. */
 enum { SNOW_MAP_BEYOND = SNOW_EXIT_CLASSES };
 
-/* Answers come with the place of a number: that of the last landing that may have
-   changed the answer to this question; for those who land walkers. */
-typedef struct snow_map_answer {
-    uint32_t seen;
-    const uint64_t *changed;
-} snow_map_answer;
-
 /* One thread at a time changes a map while others read it (ahead.h): each number
    is old or new, and what is behind an address is complete. */
 #define SNOW_MAP_GET(object) atomic_load_explicit(&(object), memory_order_relaxed)

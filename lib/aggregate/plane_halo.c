@@ -32,35 +32,38 @@ static telling telling_of(int kind)
     return (telling){place, (int)snow_halo_size(kind), least, reach_of[kind] + 1};
 }
 
-static uint8_t class_of(const snow_exits *exits, telling what, int distance)
+static int8_t class_of(const snow_exits *exits, telling what, int distance)
 {
     if (distance > what.most)
         return NOTHING;
     if (distance == 0 && what.cell <= what.place)
         return 0; /* the cell lies in the place */
     int at_least = distance > what.least ? distance : what.least;
-    return at_least < SITES_TELL ? 1 : (uint8_t)snow_exits_class(exits, at_least);
+    return at_least < SITES_TELL ? 1 : (int8_t)snow_exits_class(exits, at_least);
 }
 
 /* The cell begins at the site (x, y) of its place. */
 static void make(snow_halo *halo, const snow_exits *exits, telling what, int x, int y)
 {
-    bool hexagonal = exits->lattice == SNOW_AGGREGATE_HEXAGONAL;
+    const uint64_t each = UINT64_C(0x0101010101010101);
     int reach = what.most / what.place + 1;
     int count = 2 * reach + 1 + (what.cell - 1) / what.place;
     halo->first = -reach;
     halo->last = count - 1 - reach;
+    halo->is_hexagonal = exits->lattice == SNOW_AGGREGATE_HEXAGONAL;
     memset(halo->column, NOTHING, sizeof halo->column);
-    memset(halo->sum, hexagonal ? NOTHING : 0, sizeof halo->sum);
+    memset(halo->row, NOTHING, sizeof halo->row);
+    memset(halo->sum, NOTHING, sizeof halo->sum);
     for (int i = 0; i < count; i++) {
         int place = (i - reach) * what.place;
         halo->column[i + SNOW_HALO_MARGIN] = class_of(exits, what, snow_halo_gap(x, what.cell, place, what.place));
-        halo->row[i] = class_of(exits, what, snow_halo_gap(y, what.cell, place, what.place));
+        halo->row[i + SNOW_HALO_MARGIN] =
+            each * (uint64_t)class_of(exits, what, snow_halo_gap(y, what.cell, place, what.place));
     }
-    for (int i = 0; hexagonal && i < 2 * count - 1; i++) {
+    for (int i = 0; halo->is_hexagonal && i < 2 * count - 1; i++) {
         int place = (i - 2 * reach) * what.place;
         int gap = snow_halo_gap(x + y, 2 * what.cell - 1, place, 2 * what.place - 1);
-        halo->sum[i + SNOW_HALO_MARGIN] = class_of(exits, what, gap);
+        halo->sum[i + 2 * SNOW_HALO_MARGIN] = class_of(exits, what, gap);
     }
 }
 

@@ -8,10 +8,12 @@
 enum {
     BLOCK = 4,
     TILE = 32,
-    SITE_REACH = 3 /* of what a filled site says about sites */
+    SITE_REACH = 3, /* of what a filled site says about sites */
+    PAGES_OF_A_SITE = 64, /* so many it may need */
+    LINES_OF_A_SITE = 4,
+    MOST_PAGES = 1 << 25, /* lanes look things up by 32 bits with a sign */
+    MOST_LINES = 1 << 27
 };
-
-snow_plane_matter snow_plane_nothing;
 
 /* Of sites: the radius of the largest region round one that does not hold the other. */
 static int distance(snow_aggregate_lattice lattice, int x, int y)
@@ -59,12 +61,12 @@ static uint32_t print_of(snow_aggregate_lattice lattice, int place, int row, int
 }
 
 /* The greater code of each site. */
-static uint32_t greater(uint32_t a, uint32_t b)
+static uint64_t greater(uint64_t a, uint64_t b)
 {
-    const uint32_t lower_bits = 0x55555555;
-    uint32_t upper_a = a >> 1 & lower_bits;
-    uint32_t upper_b = b >> 1 & lower_bits;
-    uint32_t lower = (a & (upper_a | ~upper_b)) | (b & (upper_b | ~upper_a));
+    const uint64_t lower_bits = UINT64_C(0x5555555555555555);
+    uint64_t upper_a = a >> 1 & lower_bits;
+    uint64_t upper_b = b >> 1 & lower_bits;
+    uint64_t lower = (a & (upper_a | ~upper_b)) | (b & (upper_b | ~upper_a));
     return (upper_a | upper_b) << 1 | (lower & lower_bits);
 }
 
@@ -73,19 +75,19 @@ static size_t tiles_of(snow_plane_box box)
     return (size_t)box.columns * box.rows;
 }
 
-static void start_page(snow_plane_page *page, uint8_t class)
+static void start_page(snow_plane_map *map, uint32_t page, uint8_t class)
 {
     for (int i = 0; i < 64; i++)
-        atomic_init(&page->near[i], class);
+        atomic_init(&map->page[page].near[i], class);
     for (int i = 0; i < 4; i++)
-        atomic_init(&page->line[i], &snow_plane_nothing.line);
+        atomic_init(&map->quarters[page].line[i], 0);
 }
 
 static snow_status cover(snow_plane_map *map, snow_heap *heap, snow_plane_box box)
 {
-    if ((uint64_t)box.columns * box.rows > SIZE_MAX / sizeof *map->tile)
+    if ((uint64_t)box.columns * box.rows > INT32_MAX)
         return SNOW_ERROR_TOO_LARGE;
-    snow_plane_page *_Atomic *tile = snow_heap_get_raw(heap, tiles_of(box), sizeof *tile);
+    _Atomic uint32_t *tile = snow_heap_get_raw(heap, tiles_of(box), sizeof *tile);
     uint8_t *tile_class = snow_heap_get_raw(heap, tiles_of(box), 1);
     uint32_t *changed = snow_heap_get(heap, tiles_of(box), sizeof *changed);
     if (tile == NULL || tile_class == NULL || changed == NULL) {
@@ -96,7 +98,7 @@ static snow_status cover(snow_plane_map *map, snow_heap *heap, snow_plane_box bo
     }
     memset(tile_class, map->halos->beyond_tiles, tiles_of(box));
     for (size_t i = 0; i < tiles_of(box); i++)
-        atomic_init(&tile[i], &map->far[map->halos->beyond_tiles]);
+        atomic_init(&tile[i], map->halos->beyond_tiles);
     map->box = box;
     map->width = box.columns * 32;
     map->height = box.rows * 32;
@@ -113,44 +115,131 @@ static void uncover(const snow_plane_map *map, snow_heap *heap)
     snow_heap_put(heap, map->tile);
 }
 
+/* The first of the eight rows round row v that a print is for; it is even. */
+static int64_t first_of_print(int64_t v)
+{
+    return v - SITE_REACH - (v % 2 == 0 ? 1 : 0);
+}
+
 static void make_prints(snow_plane_map *map)
 {
-    for (int place = 0; place < 16; place++)
-        for (int row = -SITE_REACH; row <= SITE_REACH; row++)
-            for (int word = -1; word <= 1; word++)
-                map->print[place][row + SITE_REACH][word + 1] = print_of(map->lattice, place, row, word);
+    for (int odd = 0; odd < 2; odd++)
+        for (int place = 0; place < 16; place++)
+            for (int word = 0; word < 3; word++)
+                for (int row = 0; row < SNOW_PLANE_PRINT; row++)
+                    map->print[odd][place][word].row[row] =
+                        print_of(map->lattice, place, row + (int)first_of_print(odd) - odd, word - 1);
+}
+
+/* Small steps waste little memory; each stops all walkers. */
+static uint32_t more_than(uint32_t room)
+{
+    enum { STEP = 256 };
+    return room + room / 8 + STEP;
+}
+
+static snow_status add_pages(snow_plane_map *map, snow_heap *heap)
+{
+    enum { READ_TOO = 1 }; /* lanes read the bytes behind the one that they want */
+    uint32_t room = more_than(map->pages + PAGES_OF_A_SITE);
+    if (room > MOST_PAGES)
+        return SNOW_ERROR_TOO_LARGE;
+    snow_plane_page *page = snow_heap_move(heap, map->page, map->pages, room + READ_TOO, sizeof *page);
+    if (page == NULL)
+        return heap->refusal;
+    map->page = page;
+    snow_plane_quarters *quarters = snow_heap_move(heap, map->quarters, map->pages, room, sizeof *quarters);
+    if (quarters == NULL)
+        return heap->refusal;
+    map->quarters = quarters;
+    map->page_room = room;
+    return SNOW_OK;
+}
+
+static snow_status add_lines(snow_plane_map *map, snow_heap *heap)
+{
+    uint32_t room = more_than(map->lines + LINES_OF_A_SITE);
+    if (room > MOST_LINES)
+        return SNOW_ERROR_TOO_LARGE;
+    snow_plane_line *line = snow_heap_move(heap, map->line, map->lines, room, sizeof *line);
+    if (line == NULL)
+        return heap->refusal;
+    map->line = line;
+    if (map->keeps_matter) {
+        snow_plane_matter *matter = snow_heap_move(heap, map->matter, map->lines, room, sizeof *matter);
+        if (matter == NULL)
+            return heap->refusal;
+        map->matter = matter;
+    }
+    map->line_room = room;
+    return SNOW_OK;
+}
+
+static bool has_pages(const snow_plane_map *map)
+{
+    return map->pages + PAGES_OF_A_SITE <= map->page_room;
+}
+
+static bool has_lines(const snow_plane_map *map)
+{
+    return map->lines + LINES_OF_A_SITE <= map->line_room;
+}
+
+bool snow_plane_map_has_room(const snow_plane_map *map)
+{
+    return has_pages(map) && has_lines(map);
+}
+
+snow_status snow_plane_map_reserve(snow_plane_map *map, snow_heap *heap)
+{
+    snow_status status = has_pages(map) ? SNOW_OK : add_pages(map, heap);
+    if (status == SNOW_OK && !has_lines(map))
+        status = add_lines(map, heap);
+    return status;
+}
+
+static uint32_t take_page(snow_plane_map *map, uint8_t class)
+{
+    start_page(map, map->pages, class);
+    return map->pages++;
+}
+
+static uint32_t take_line(snow_plane_map *map)
+{
+    memset((void *)&map->line[map->lines], 0, sizeof map->line[0]);
+    if (map->keeps_matter)
+        memset((void *)&map->matter[map->lines], 0, sizeof map->matter[0]);
+    return map->lines++;
 }
 
 snow_status snow_plane_map_start(snow_plane_map *map, snow_heap *heap, const snow_exits *exits, bool keeps_matter,
                                  snow_plane_box box)
 {
-    *map = (snow_plane_map){
-        .pages = {.item = sizeof(snow_plane_page)},
-        .lines = {.item = keeps_matter ? sizeof(snow_plane_matter) : sizeof(snow_plane_line)},
-        .keeps_matter = keeps_matter,
-        .lattice = exits->lattice,
-    };
+    *map = (snow_plane_map){.keeps_matter = keeps_matter, .lattice = exits->lattice};
+    snow_status status = snow_plane_map_reserve(map, heap);
+    if (status != SNOW_OK)
+        return status;
     map->halos = snow_heap_get_raw(heap, 1, sizeof *map->halos);
     if (map->halos == NULL)
         return heap->refusal;
-    start_page(&map->outside, SNOW_MAP_BEYOND);
     snow_halos_make(map->halos, exits);
-    for (int class = 0; class < SNOW_EXIT_CLASSES; class++)
-        start_page(&map->far[class], (uint8_t)class);
+    for (uint32_t page = 0; page < SNOW_PLANE_SHARED_PAGES; page++)
+        take_page(map, (uint8_t)page);
+    for (uint32_t line = 0; line < SNOW_PLANE_SHARED_LINES; line++)
+        take_line(map);
     make_prints(map);
     return cover(map, heap, box);
 }
 
 void snow_plane_map_end(snow_plane_map *map, snow_heap *heap)
 {
-    snow_pool_end(&map->lines, heap);
-    snow_pool_end(&map->pages, heap);
     uncover(map, heap);
     snow_heap_put(heap, map->halos);
-    map->halos = NULL;
-    map->changed = NULL;
-    map->tile_class = NULL;
-    map->tile = NULL;
+    snow_heap_put(heap, map->matter);
+    snow_heap_put(heap, map->line);
+    snow_heap_put(heap, map->quarters);
+    snow_heap_put(heap, map->page);
+    *map = (snow_plane_map){.lattice = map->lattice};
 }
 
 static void stamp(const snow_plane_map *map, size_t tile)
@@ -163,57 +252,53 @@ static size_t tile_at(const snow_plane_map *map, int64_t column, int64_t row)
     return (size_t)row * map->box.columns + (size_t)column;
 }
 
-/* The page is not touched to learn that: it may be far from the processor. */
 static bool has_own_page(const snow_plane_map *map, size_t tile)
 {
-    return SNOW_MAP_GET(map->tile[tile]) != &map->far[map->tile_class[tile]];
+    return SNOW_MAP_GET(map->tile[tile]) >= SNOW_PLANE_SHARED_PAGES;
 }
 
-static snow_plane_page *page_of(snow_plane_map *map, size_t tile)
+static uint32_t page_of(snow_plane_map *map, size_t tile)
 {
     if (!has_own_page(map, tile)) {
-        snow_plane_page *page = snow_pool_take(&map->pages);
-        start_page(page, map->halos->beyond_blocks);
+        uint32_t page = take_page(map, map->halos->beyond_blocks);
         stamp(map, tile);
         SNOW_MAP_PUT_ADDRESS(map->tile[tile], page);
     }
     return SNOW_MAP_GET(map->tile[tile]);
 }
 
-static snow_plane_page *known_page(const snow_plane_map *map, uint32_t u, uint32_t v)
+static uint32_t line_of(snow_plane_map *map, size_t tile, uint32_t u, uint32_t v)
 {
-    return SNOW_MAP_GET(map->tile[(size_t)(v / 32) * map->box.columns + u / 32]);
-}
-
-static snow_plane_line *line_of(snow_plane_map *map, uint32_t u, uint32_t v)
-{
-    uint32_t place = v / 16 % 2 * 2 + u / 16 % 2;
-    snow_plane_page *page = known_page(map, u, v);
-    stamp(map, tile_at(map, u / TILE, v / TILE));
-    snow_plane_line *line = SNOW_MAP_GET(page->line[place]);
-    if (line == &snow_plane_nothing.line) {
-        line = snow_pool_take(&map->lines);
-        SNOW_MAP_PUT_ADDRESS(page_of(map, tile_at(map, u / TILE, v / TILE))->line[place], line);
+    uint32_t page = page_of(map, tile);
+    uint32_t line = snow_plane_map_line(map, page, u, v);
+    if (line == 0) {
+        line = take_line(map);
+        SNOW_MAP_PUT_ADDRESS(map->quarters[page].line[v / 16 % 2 * 2 + u / 16 % 2], line);
     }
     return line;
 }
 
-/* The cell of 2 sites a side round a site. */
-static bool pair_holds_special(const snow_plane_page *page, uint32_t u, uint32_t v)
+static uint32_t known_page(const snow_plane_map *map, uint32_t u, uint32_t v)
 {
-    const snow_plane_line *line = SNOW_MAP_GET(page->line[v / 16 % 2 * 2 + u / 16 % 2]);
+    return SNOW_MAP_GET(map->tile[tile_at(map, u / TILE, v / TILE)]);
+}
+
+/* The cell of 2 sites a side round a site. */
+static bool pair_holds_special(const snow_plane_map *map, uint32_t u, uint32_t v)
+{
+    const snow_plane_line *line = &map->line[snow_plane_map_line(map, known_page(map, u, v), u, v)];
     uint32_t even = SNOW_MAP_GET(line->row[v % 16 / 2 * 2]);
     uint32_t odd = SNOW_MAP_GET(line->row[v % 16 / 2 * 2 + 1]);
     uint32_t special = (even & even >> 1) | (odd & odd >> 1);
     return (special >> u % 16 / 2 * 4 & 5) != 0;
 }
 
-/* One of 4, 8, 16. */
-static bool blocks_hold_special(const snow_plane_page *page, uint32_t u, uint32_t v, uint32_t size)
+/* One of 4, 8, 16: kinds 1, 2, 3. */
+static bool blocks_hold_special(const snow_plane_page *page, uint32_t u, uint32_t v, int kind)
 {
-    uint32_t side = size / BLOCK;
-    uint32_t first_row = v % TILE / size * side;
-    uint32_t first_column = u % TILE / size * side;
+    uint32_t side = 1u << (kind - 1);
+    uint32_t first_row = v % TILE / BLOCK & ~(side - 1);
+    uint32_t first_column = u % TILE / BLOCK & ~(side - 1);
     bool found = false;
     for (uint32_t row = first_row; row < first_row + side; row++)
         for (uint32_t column = first_column; column < first_column + side; column++)
@@ -222,22 +307,23 @@ static bool blocks_hold_special(const snow_plane_page *page, uint32_t u, uint32_
 }
 
 /* One of 32, 64 ... */
-static bool tiles_hold_special(const snow_plane_map *map, uint32_t u, uint32_t v, uint32_t size)
+static bool tiles_hold_special(const snow_plane_map *map, uint32_t u, uint32_t v, int kind)
 {
-    uint32_t side = size / TILE;
-    size_t first = (size_t)(v / size * side) * map->box.columns + u / size * side;
-    for (uint32_t row = 0; row < side; row++)
-        if (memchr(map->tile_class + first + (size_t)row * map->box.columns, 0, side) != NULL)
+    uint32_t side = 1u << (kind - 4);
+    size_t first_row = v / TILE & ~(side - 1);
+    size_t first_column = u / TILE & ~(side - 1);
+    for (size_t row = first_row; row < first_row + side; row++)
+        if (memchr(map->tile_class + row * map->box.columns + first_column, 0, side) != NULL)
             return true;
     return false;
 }
 
-static bool cell_holds_special(const snow_plane_map *map, uint32_t u, uint32_t v, uint32_t size)
+/* Of a kind from 1 on. */
+static bool cell_holds_special(const snow_plane_map *map, uint32_t u, uint32_t v, int kind)
 {
-    if (size >= TILE)
-        return tiles_hold_special(map, u, v, size);
-    const snow_plane_page *page = known_page(map, u, v);
-    return size < BLOCK ? pair_holds_special(page, u, v) : blocks_hold_special(page, u, v, size);
+    if (kind <= 3)
+        return blocks_hold_special(&map->page[known_page(map, u, v)], u, v, kind);
+    return tiles_hold_special(map, u, v, kind);
 }
 
 /* Some places of a map. */
@@ -245,17 +331,20 @@ typedef struct part {
     int64_t first_column, last_column, first_row, last_row;
 } part;
 
-/* On which sides of a cell of this size the next one holds a special site. */
+/* On which sides of a cell the next one of its size is known to hold a special site. */
 typedef struct company {
     bool left, right, below, above;
 } company;
 
-static company company_of(const snow_plane_map *map, uint32_t u, uint32_t v, uint32_t size)
+/* What is known of the smallest cell is true of all that begin to hold special sites with it: the next one is
+   that of the same site beside it. For larger ones it pays to look. */
+static company company_of(const snow_plane_map *map, uint32_t u, uint32_t v, int kind, company known)
 {
-    return (company){u >= size && cell_holds_special(map, u - size, v, size),
-                     u + size < map->width && cell_holds_special(map, u + size, v, size),
-                     v >= size && cell_holds_special(map, u, v - size, size),
-                     v + size < map->height && cell_holds_special(map, u, v + size, size)};
+    uint32_t size = snow_halo_size(kind);
+    return (company){known.left || (u >= size && cell_holds_special(map, u - size, v, kind)),
+                     known.right || (u + size < map->width && cell_holds_special(map, u + size, v, kind)),
+                     known.below || (v >= size && cell_holds_special(map, u, v - size, kind)),
+                     known.above || (v + size < map->height && cell_holds_special(map, u, v + size, kind))};
 }
 
 /* The places that may learn something from a cell that begins in place (i, j). To
@@ -274,54 +363,54 @@ static part clip(part all, int64_t columns, int64_t rows)
                   at_least(all.first_row, 0), at_most(all.last_row, rows - 1)};
 }
 
-/* Rows of a page, from block (x, y) on, as counted from the halo's corner. True: they change. */
-static bool lower_rows(snow_plane_page *page, int first, int last, const snow_halo *halo, int x, int y)
+/* The blocks of a page, the first of which is block (x, y) counted from the halo's corner. True: some change. */
+static bool lower_page(snow_plane_page *page, const snow_halo *halo, int x, int y)
 {
-    bool changed = false;
-    for (int row = first; row <= last; row++, y++) {
-        uint64_t known = SNOW_MAP_GET(page->near_row[row]);
-        uint64_t now = snow_halo_lower(known, halo, x, y);
-        if (now == known)
-            continue;
-        SNOW_MAP_PUT(page->near_row[row], now);
-        changed = true;
+    enum { GROUPS = 4 };
+    snow_halo_group now[GROUPS];
+    snow_halo_group changed = {0};
+    for (int i = 0; i < GROUPS; i++) {
+        snow_halo_group known;
+        memcpy(&known, (const void *)&page->near_row[2 * i], sizeof known); /* nobody else writes */
+        now[i] = snow_halo_lesser(known, snow_halo_rows(halo, x, y + 2 * i));
+        changed |= now[i] ^ known;
     }
-    return changed;
+    if (!snow_halo_has_any(changed))
+        return false;
+    for (int i = 0; i < GROUPS; i++) {
+        snow_halo_halves rows = (snow_halo_halves)now[i];
+        SNOW_MAP_PUT(page->near_row[2 * i], rows[0]);
+        SNOW_MAP_PUT(page->near_row[2 * i + 1], rows[1]);
+    }
+    return true;
 }
 
 /* A cell that begins in the block (i, j) has got its first special site. */
 static void spread_to_blocks(snow_plane_map *map, const snow_halo *halo, company beside, int64_t i, int64_t j)
 {
     part near = clip(part_of(halo, beside, i, j), (int64_t)map->box.columns * 8, (int64_t)map->box.rows * 8);
-    for (int64_t y = near.first_row / 8; y <= near.last_row / 8; y++) {
-        int64_t first = at_least(near.first_row, 8 * y);
-        int64_t last = at_most(near.last_row, 8 * y + 7);
+    for (int64_t y = near.first_row / 8; y <= near.last_row / 8; y++)
         for (int64_t x = near.first_column / 8; x <= near.last_column / 8; x++)
-            if (lower_rows(page_of(map, tile_at(map, x, y)), (int)(first - 8 * y), (int)(last - 8 * y), halo,
-                           (int)(8 * x - i - halo->first), (int)(first - j - halo->first)))
+            if (lower_page(&map->page[page_of(map, tile_at(map, x, y))], halo, (int)(8 * x - i - halo->first),
+                           (int)(8 * y - j - halo->first)))
                 stamp(map, tile_at(map, x, y));
-    }
 }
 
 static void set_tile_class(snow_plane_map *map, size_t tile, uint8_t class)
 {
     if (!has_own_page(map, tile)) {
         stamp(map, tile);
-        SNOW_MAP_PUT_ADDRESS(map->tile[tile], &map->far[class]);
+        SNOW_MAP_PUT(map->tile[tile], class);
     }
     map->tile_class[tile] = class;
 }
 
-/* Eight tiles. */
-static void set_tile_classes(snow_plane_map *map, size_t tile, uint64_t known, uint64_t now)
+/* A group of tiles. */
+static void set_tile_classes(snow_plane_map *map, size_t tile, snow_halo_group known, snow_halo_group now)
 {
-    uint8_t before[SNOW_HALO_GROUP];
-    uint8_t after[SNOW_HALO_GROUP];
-    memcpy(before, &known, sizeof before);
-    memcpy(after, &now, sizeof after);
-    for (size_t i = 0; i < SNOW_HALO_GROUP; i++)
-        if (after[i] != before[i])
-            set_tile_class(map, tile + i, after[i]);
+    for (int i = 0; i < SNOW_HALO_GROUP; i++)
+        if (now[i] != known[i])
+            set_tile_class(map, tile + (size_t)i, (uint8_t)now[i]);
 }
 
 /* A cell that begins in the tile (i, j) has got its first special site. */
@@ -333,10 +422,11 @@ static void spread_to_tiles(snow_plane_map *map, const snow_halo *halo, company 
         int64_t first = near.first_column / SNOW_HALO_GROUP * SNOW_HALO_GROUP;
         for (int64_t column = first; column <= near.last_column; column += SNOW_HALO_GROUP) {
             int x = (int)(column - i - halo->first);
-            size_t tile = (size_t)row * map->box.columns + (size_t)column;
-            uint64_t known = snow_halo_group(&map->tile_class[tile]);
-            uint64_t now = snow_halo_lower(known, halo, x, y);
-            if (now != known)
+            size_t tile = tile_at(map, column, row);
+            snow_halo_group known;
+            memcpy(&known, &map->tile_class[tile], sizeof known);
+            snow_halo_group now = snow_halo_lesser(known, snow_halo_row(halo, x, y));
+            if (snow_halo_has_any(now ^ known))
                 set_tile_classes(map, tile, known, now);
         }
     }
@@ -346,9 +436,8 @@ static void spread_to_tiles(snow_plane_map *map, const snow_halo *halo, company 
 static void spread(snow_plane_map *map, uint32_t u, uint32_t v, int kind, company beside)
 {
     const snow_halo *halo = snow_halos_find(map->halos, kind, u, v);
-    uint32_t size = snow_halo_size(kind);
-    uint32_t first_u = u / size * size;
-    uint32_t first_v = v / size * size;
+    uint32_t first_u = u & ~(snow_halo_size(kind) - 1);
+    uint32_t first_v = v & ~(snow_halo_size(kind) - 1);
     if (kind < SNOW_HALO_BLOCK_SIZES)
         spread_to_blocks(map, halo, beside, first_u / BLOCK, first_v / BLOCK);
     else
@@ -356,19 +445,20 @@ static void spread(snow_plane_map *map, uint32_t u, uint32_t v, int kind, compan
 }
 
 /* The smallest cell had none, and perhaps larger ones had none. */
-static SNOW_APART void add_first_special(snow_plane_map *map, uint32_t u, uint32_t v)
+static SNOW_APART void add_first_special(snow_plane_map *map, uint32_t u, uint32_t v, company known)
 {
     int kinds = 1;
-    while (kinds < SNOW_HALO_SIZES && !cell_holds_special(map, u, v, snow_halo_size(kinds)))
+    while (kinds < SNOW_HALO_SIZES && !cell_holds_special(map, u, v, kinds))
         kinds++;
-    for (int kind = 0; kind < kinds; kind++)
-        spread(map, u, v, kind, company_of(map, u, v, snow_halo_size(kind)));
+    spread(map, u, v, 0, known);
+    for (int kind = 1; kind < kinds; kind++)
+        spread(map, u, v, kind, company_of(map, u, v, kind, known));
 }
 
-static void add_special(snow_plane_map *map, uint32_t u, uint32_t v)
+static void add_special(snow_plane_map *map, uint32_t u, uint32_t v, company known)
 {
-    if (u < map->width && v < map->height && !pair_holds_special(known_page(map, u, v), u, v))
-        add_first_special(map, u, v);
+    if (u < map->width && v < map->height && !pair_holds_special(map, u, v))
+        add_first_special(map, u, v, known);
 }
 
 /* Tiles move to the new box. */
@@ -392,7 +482,7 @@ static void spread_out(snow_plane_map *map, const snow_plane_map *old, uint32_t 
         for (uint32_t v = 0; v < old->height; v += size) {
             for (uint32_t u = 0; u < old->width; u += size) {
                 bool sees_out = u < reach || v < reach || u + reach >= old->width || v + reach >= old->height;
-                if (sees_out && cell_holds_special(map, u + shift_u, v + shift_v, size))
+                if (sees_out && cell_holds_special(map, u + shift_u, v + shift_v, kind))
                     spread(map, u + shift_u, v + shift_v, kind, (company){false, false, false, false});
             }
         }
@@ -413,61 +503,64 @@ snow_status snow_plane_map_widen(snow_plane_map *map, snow_heap *heap, snow_plan
     return SNOW_OK;
 }
 
-snow_status snow_plane_map_reserve(snow_plane_map *map, snow_heap *heap)
+/* Some pairs of rows of a line, from row v of the map on. */
+static void add_print(snow_plane_map *map, uint32_t u, uint32_t v, uint32_t pairs, const uint64_t *print)
 {
-    enum { LINES = 4, TILES = 64 };
-    snow_status status = snow_pool_reserve(&map->pages, heap, TILES);
-    return status == SNOW_OK ? snow_pool_reserve(&map->lines, heap, LINES) : status;
-}
-
-/* What shares the smallest cell with a special site adds nothing there. */
-static void add_neighbour(snow_plane_map *map, uint32_t u, uint32_t v, int way)
-{
-    uint32_t other_u = u + (uint32_t)neighbour_x[way];
-    uint32_t other_v = v + (uint32_t)neighbour_y[way];
-    if (other_u / 2 != u / 2 || other_v / 2 != v / 2)
-        add_special(map, other_u, other_v);
-}
-
-/* The rows of one line, `first` to `last` of the map. */
-static void add_print(snow_plane_map *map, uint32_t u, uint32_t first, uint32_t last, const uint32_t *print)
-{
-    snow_plane_line *line = line_of(map, u, first);
-    for (uint32_t v = first; v <= last; v++, print += 3) {
-        _Atomic uint32_t *row = &line->row[v % 16];
-        SNOW_MAP_PUT(*row, greater(SNOW_MAP_GET(*row), *print));
+    size_t tile = tile_at(map, u / TILE, v / TILE);
+    _Atomic uint64_t *row = &map->line[line_of(map, tile, u, v)].two_rows[v % 16 / 2];
+    uint64_t changed = 0;
+    for (uint32_t i = 0; i < pairs; i++) {
+        uint64_t known = SNOW_MAP_GET(row[i]);
+        uint64_t now = greater(known, print[i]);
+        SNOW_MAP_PUT(row[i], now);
+        changed |= now ^ known;
     }
+    if (changed != 0)
+        stamp(map, tile);
 }
 
 /* What a site says about those up to three away. */
 static void add_prints(snow_plane_map *map, int64_t u, int64_t v)
 {
-    const uint32_t *print = map->print[(u + 16) % 16][0];
-    int64_t least = at_least(v - SITE_REACH, 0);
-    int64_t most = at_most(v + SITE_REACH, (int64_t)map->height - 1);
+    const snow_plane_print *print = map->print[v & 1][u & 15];
+    int64_t least = at_least(first_of_print(v), 0);
+    int64_t end = at_most(first_of_print(v) + SNOW_PLANE_PRINT, map->height);
     for (int word = 0; word < 3; word++) {
         int64_t column = u + 16 * (word - 1);
         if (column < 0 || column >= (int64_t)map->width || (word == 0 && u % 16 >= 3) || (word == 2 && u % 16 < 13))
             continue;
-        for (int64_t first = least; first <= most; first = first - first % 16 + 16) {
-            int64_t last = at_most(first - first % 16 + 15, most);
-            add_print(map, (uint32_t)column, (uint32_t)first, (uint32_t)last,
-                      print + 3 * (first - v + SITE_REACH) + word);
+        for (int64_t first = least; first < end; first = first - first % 16 + 16) {
+            int64_t last = at_most(first - first % 16 + 16, end);
+            add_print(map, (uint32_t)column, (uint32_t)first, (uint32_t)(last - first) / 2,
+                      &print[word].two_rows[(first - first_of_print(v)) / 2]);
         }
     }
+}
+
+/* A filled site and its neighbours lie in its own smallest cell, one beside it, and one above or below; on the
+   hexagonal lattice perhaps in the one beside both. */
+static void add_contacts(snow_plane_map *map, uint32_t u, uint32_t v)
+{
+    bool is_left = u % 2 != 0; /* its own cell is left of the other */
+    bool is_below = v % 2 != 0;
+    uint32_t other_u = is_left ? u + 1 : u - 1;
+    uint32_t other_v = is_below ? v + 1 : v - 1;
+    add_special(map, u, v, (company){false, false, false, false});
+    add_special(map, other_u, v, (company){is_left, !is_left, false, false});
+    add_special(map, u, other_v, (company){false, false, is_below, !is_below});
+    if (map->lattice == SNOW_AGGREGATE_HEXAGONAL && is_left != is_below)
+        add_special(map, other_u, other_v, (company){is_left, !is_left, is_below, !is_below});
 }
 
 void snow_plane_map_add(snow_plane_map *map, int32_t x, int32_t y, bool obstacle)
 {
     uint32_t u = (uint32_t)x - (uint32_t)map->box.x; /* in a floor v is −1 */
     uint32_t v = (uint32_t)y - (uint32_t)map->box.y;
-    add_special(map, u, v);
-    for (int k = 0; k < (map->lattice == SNOW_AGGREGATE_HEXAGONAL ? 6 : 4); k++)
-        add_neighbour(map, u, v, k);
+    add_contacts(map, u, v);
     add_prints(map, (int64_t)x - map->box.x, (int64_t)y - map->box.y);
     if (!map->keeps_matter || u >= map->width || v >= map->height)
         return;
-    snow_plane_matter *matter = (snow_plane_matter *)line_of(map, u, v);
+    snow_plane_matter *matter = &map->matter[line_of(map, tile_at(map, u / TILE, v / TILE), u, v)];
     _Atomic uint16_t *row = &(obstacle ? matter->obstacle : matter->filled)[v % 16];
     SNOW_MAP_PUT(*row, (uint16_t)(SNOW_MAP_GET(*row) | 1u << u % 16));
 }

@@ -21,31 +21,44 @@
 
 #include "aggregate/matter.h"
 #include "aggregate/plane_halo.h"
-#include "aggregate/pool.h"
 
 /* Between special sites and those sides where the map may be widened: more than cells of blocks see. */
 enum { SNOW_PLANE_MARGIN = 96 };
 
 /* Three less the distance of each site, two bits each. */
-typedef struct snow_plane_line {
-    _Atomic uint32_t row[16];
+typedef union snow_plane_line {
+    _Alignas(64) _Atomic uint32_t row[16];
+    _Atomic uint64_t two_rows[8];
 } snow_plane_line;
 
-/* The same where it matters which sites are filled and which are obstacles: a bit a site. */
+/* What a filled site does to as many words of a line, one below the other. */
+enum { SNOW_PLANE_PRINT = 8 };
+
+typedef union snow_plane_print {
+    uint32_t row[SNOW_PLANE_PRINT];
+    uint64_t two_rows[SNOW_PLANE_PRINT / 2];
+} snow_plane_print;
+
+/* The same sites where it matters which are filled and which are obstacles: a bit a site. */
 typedef struct snow_plane_matter {
-    snow_plane_line line;
-    _Atomic uint16_t filled[16];
+    _Alignas(64) _Atomic uint16_t filled[16];
     _Atomic uint16_t obstacle[16];
 } snow_plane_matter;
 
-/* Two cache lines: far from what is special walkers need but the first. */
-typedef struct snow_plane_page {
-    union {
-        _Alignas(64) _Atomic uint8_t near[64]; /* of blocks */
-        _Atomic uint64_t near_row[8];
-    };
-    snow_plane_line *_Atomic line[4]; /* never NULL: where nothing is near they share one */
+/* What is said of a tile's blocks. */
+typedef union snow_plane_page {
+    _Alignas(64) _Atomic uint8_t near[64];
+    _Atomic uint64_t near_row[8];
 } snow_plane_page;
+
+/* The numbers of its lines. */
+typedef struct snow_plane_quarters {
+    _Atomic uint32_t line[4];
+} snow_plane_quarters;
+
+/* Pages that say the same everywhere have the number of that class, one that stands for all places where the map
+   ends is SNOW_MAP_BEYOND; the line that says that nothing is near has number 0. */
+enum { SNOW_PLANE_SHARED_PAGES = SNOW_MAP_BEYOND + 1, SNOW_PLANE_SHARED_LINES = 1 };
 
 /* The sites that the map covers: whole cells of the largest size; x and y are multiples of 512. */
 typedef struct snow_plane_box {
@@ -55,19 +68,21 @@ typedef struct snow_plane_box {
 
 typedef struct snow_plane_map {
     snow_plane_box box;
-    uint32_t width, height; /* of the box, sites */
-    snow_plane_page *_Atomic *tile;
+    uint32_t width, height;  /* of the box, sites */
+    _Atomic uint32_t *tile;  /* numbers of pages */
     uint8_t *tile_class;
-    uint32_t *changed; /* what is known of each tile: last by the landing of this number (its last 32 bits) */
-    snow_plane_page far[SNOW_EXIT_CLASSES]; /* for tiles of this class */
-    snow_pool pages;
-    snow_pool lines; /* with matter, if that is kept */
+    uint32_t *changed;       /* what is known of each tile: last by the landing of this number (its last 32 bits) */
+    snow_plane_page *page;
+    snow_plane_quarters *quarters;
+    snow_plane_line *line;
+    snow_plane_matter *matter; /* of each line, if that is kept */
+    uint32_t pages, page_room;
+    uint32_t lines, line_room;
     bool keeps_matter;
     snow_aggregate_lattice lattice;
-    uint32_t print[16][7][3]; /* for each place in a row: what a filled site does to the rows round it */
+    snow_plane_print print[2][16][3]; /* of a site in an odd row or not, at this place of a word: left, here, right */
     snow_halos *halos;
-    uint64_t landing;         /* for pages that change now */
-    snow_plane_page outside;  /* stands for all places where the map ends */
+    uint64_t landing; /* for pages that change now */
 } snow_plane_map;
 
 snow_status snow_plane_map_start(snow_plane_map *map, snow_heap *heap, const snow_exits *exits, bool keeps_matter,
@@ -77,58 +92,60 @@ void snow_plane_map_end(snow_plane_map *map, snow_heap *heap);
 /* Covers another box, which holds the old one. */
 snow_status snow_plane_map_widen(snow_plane_map *map, snow_heap *heap, snow_plane_box box);
 
-/* Room for one more filled site, or obstacle: then snow_plane_map_add() cannot fail. */
+/* Whether there is room for one more filled site, or obstacle: then snow_plane_map_add() cannot fail. If there is none,
+   snow_plane_map_reserve() moves the map in memory: nobody may look at it. */
+bool snow_plane_map_has_room(const snow_plane_map *map);
 snow_status snow_plane_map_reserve(snow_plane_map *map, snow_heap *heap);
 void snow_plane_map_add(snow_plane_map *map, int32_t x, int32_t y, bool obstacle);
 
-/* Where nothing is near, and nothing is. */
-extern snow_plane_matter snow_plane_nothing;
-
-static inline const snow_plane_page *snow_plane_map_page(const snow_plane_map *map, uint32_t u, uint32_t v)
-{
-    return SNOW_MAP_GET_ADDRESS(map->tile[(size_t)(v / 32) * map->box.columns + u / 32]);
-}
-
-/* The page that tells about a site. */
-static inline const snow_plane_page *snow_plane_map_find(const snow_plane_map *map, int32_t x, int32_t y)
+/* The number of the tile that a site lies in; negative outside the box. */
+static inline int32_t snow_plane_map_tile(const snow_plane_map *map, int32_t x, int32_t y)
 {
     uint32_t u = (uint32_t)x - (uint32_t)map->box.x;
     uint32_t v = (uint32_t)y - (uint32_t)map->box.y;
     bool inside = (u < map->width) & (v < map->height);
-    const snow_plane_page *page = snow_plane_map_page(map, inside ? u : 0, inside ? v : 0);
-    return inside ? page : &map->outside;
+    return inside ? (int32_t)(v / 32 * map->box.columns + u / 32) : -1;
+}
+
+/* The page that tells about a tile. */
+static inline uint32_t snow_plane_map_find(const snow_plane_map *map, int32_t tile)
+{
+    uint32_t page = SNOW_MAP_GET_ADDRESS(map->tile[tile < 0 ? 0 : tile]);
+    return tile < 0 ? SNOW_MAP_BEYOND : page;
+}
+
+/* The line of a page that tells about a site. */
+static inline uint32_t snow_plane_map_line(const snow_plane_map *map, uint32_t page, uint32_t u, uint32_t v)
+{
+    return SNOW_MAP_GET_ADDRESS(map->quarters[page].line[v / 16 % 2 * 2 + u / 16 % 2]);
 }
 
 /* Whether an answer there may have changed since that landing, one of the last 2^31. */
-static inline bool snow_plane_map_has_changed(const snow_plane_map *map, int32_t x, int32_t y, uint64_t since)
+static inline bool snow_plane_map_has_changed(const snow_plane_map *map, int32_t tile, uint64_t since)
 {
-    uint32_t u = (uint32_t)x - (uint32_t)map->box.x;
-    uint32_t v = (uint32_t)y - (uint32_t)map->box.y;
-    return u < map->width && v < map->height &&
-           (int32_t)(map->changed[(size_t)(v / 32) * map->box.columns + u / 32] - (uint32_t)since) > 0;
+    return tile >= 0 && (int32_t)(map->changed[tile] - (uint32_t)since) > 0;
 }
 
 /* 0: special; else a class; SNOW_MAP_BEYOND. */
-static inline uint32_t snow_plane_page_look(const snow_plane_page *page, int32_t x, int32_t y)
+static inline uint32_t snow_plane_map_look(const snow_plane_map *map, uint32_t page, int32_t x, int32_t y)
 {
     uint32_t u = (uint32_t)x; /* boxes begin at multiples of 32 */
     uint32_t v = (uint32_t)y;
-    uint32_t near = SNOW_MAP_GET(page->near[v / 4 % 8 * 8 + u / 4 % 8]);
-    const snow_plane_line *line = SNOW_MAP_GET_ADDRESS(page->line[v / 16 % 2 * 2 + u / 16 % 2]);
-    uint32_t exact = ~SNOW_MAP_GET(line->row[v % 16]) >> (u % 16 * 2) & 3;
+    uint32_t near = SNOW_MAP_GET(map->page[page].near[v / 4 % 8 * 8 + u / 4 % 8]);
+    uint32_t line = snow_plane_map_line(map, page, u, v);
+    uint32_t exact = ~SNOW_MAP_GET(map->line[line].row[v % 16]) >> (u % 16 * 2) & 3;
     return near > exact ? near : exact; /* neither is more than what is free */
 }
 
 /* What is on a site; only where matter is kept. */
 static inline int snow_plane_map_matter(const snow_plane_map *map, int32_t x, int32_t y)
 {
-    uint32_t u = (uint32_t)x - (uint32_t)map->box.x;
-    uint32_t v = (uint32_t)y - (uint32_t)map->box.y;
-    if (u >= map->width || v >= map->height)
+    int32_t tile = snow_plane_map_tile(map, x, y);
+    if (tile < 0)
         return 0;
-    const snow_plane_page *page = snow_plane_map_page(map, u, v);
-    const snow_plane_line *line = SNOW_MAP_GET_ADDRESS(page->line[v / 16 % 2 * 2 + u / 16 % 2]);
-    const snow_plane_matter *matter = (const snow_plane_matter *)line;
+    uint32_t u = (uint32_t)x;
+    uint32_t v = (uint32_t)y;
+    const snow_plane_matter *matter = &map->matter[snow_plane_map_line(map, snow_plane_map_find(map, tile), u, v)];
     uint32_t bit = u % 16;
     return (SNOW_MAP_GET(matter->filled[v % 16]) >> bit & 1) | (SNOW_MAP_GET(matter->obstacle[v % 16]) >> bit & 1) << 1;
 }

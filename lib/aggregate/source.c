@@ -1,10 +1,10 @@
 #include "aggregate/source.h"
 
+#include "aggregate/blur.h"
+
 #include <math.h>
 
 #define HALF_SQRT_3 0.86602540378443864676
-
-enum { BLUR_PARTS = 8, BLUR_PART = 8 };
 
 typedef struct point {
     double x, y, z;
@@ -15,64 +15,34 @@ static bool is_in_space(const snow_source_of_walkers *source)
     return source->lattice == SNOW_AGGREGATE_CUBIC;
 }
 
-/* Uniform numbers of 16 bits, eight of them: 0 to 64, smooth at both ends. */
-static double blur(snow_draws *draws)
+/* In -1 ... 1. */
+static double centred(uint64_t number)
 {
-    uint32_t sum = 0;
-    for (int half = 0; half < 2; half++) {
-        uint64_t bits = snow_draws_next(draws);
-        for (int part = 0; part < BLUR_PARTS / 2; part++)
-            sum += (uint32_t)(bits >> (16 * part) & 0xFFFF);
-    }
-    return sum * (BLUR_PART / 65536.0);
+    return ((double)(number >> 32) + 0.5) * 0x1p-31 - 1;
 }
 
-static double centred(uint64_t bits)
+/* By its height, which is uniform. */
+static point unit_sphere(const uint64_t number[2])
 {
-    return (double)(int64_t)(bits >> 32) * 0x1p-31 - 1;
+    double z = centred(number[1]);
+    double across = sqrt(1 - z * z);
+    snow_vector round = snow_direction_of(number[0]);
+    return (point){across * round.x, across * round.y, z};
 }
 
-/* A uniform point of the disc, squared as a complex number, has a uniform direction. */
-static point unit_circle(snow_draws *draws)
+/* Beyond 2^52 doubles are whole. */
+static double nearest(double x)
 {
-    for (;;) {
-        uint64_t bits = snow_draws_next(draws);
-        double a = centred(bits);
-        double b = centred(bits << 32);
-        double square = a * a + b * b;
-        if (square <= 1 && square > 0x1p-20)
-            return (point){(a * a - b * b) / square, 2 * a * b / square, 0};
-    }
-}
-
-/* G. Marsaglia, Ann. Math. Stat. 43 (1972) 645. */
-static point unit_sphere(snow_draws *draws)
-{
-    for (;;) {
-        uint64_t bits = snow_draws_next(draws);
-        double a = centred(bits);
-        double b = centred(bits << 32);
-        double square = a * a + b * b;
-        if (square < 1) {
-            double root = 2 * sqrt(1 - square);
-            return (point){a * root, b * root, 1 - 2 * square};
-        }
-    }
-}
-
-static int32_t nearest(double x)
-{
-    int32_t truncated = (int32_t)(x + 0.5);
-    return truncated - (truncated > x + 0.5);
+    return (x + 0x1.8p52) - 0x1.8p52;
 }
 
 /* Each site has its own cell of points, all of one size. */
 static snow_site site_at(snow_aggregate_lattice lattice, point p)
 {
     if (lattice != SNOW_AGGREGATE_HEXAGONAL)
-        return (snow_site){nearest(p.x), nearest(p.y), nearest(p.z)};
-    int32_t r = nearest(p.y / HALF_SQRT_3);
-    return (snow_site){nearest(p.x - r * 0.5), r, 0};
+        return (snow_site){(int32_t)nearest(p.x), (int32_t)nearest(p.y), (int32_t)nearest(p.z)};
+    double row = nearest(p.y * (1 / HALF_SQRT_3));
+    return (snow_site){(int32_t)nearest(p.x - row * 0.5), (int32_t)row, 0};
 }
 
 static point point_of(snow_aggregate_lattice lattice, snow_site site)
@@ -163,32 +133,19 @@ static snow_site launch_in_vessel(const snow_source_of_walkers *source, snow_dra
     return (snow_site){x, y, row};
 }
 
-static snow_site launch(const snow_source_of_walkers *source, snow_draws *draws)
+bool snow_source_is_at_infinity(snow_site site)
 {
-    if (source->width > 0)
-        return launch_in_vessel(source, draws);
-    double radius = source->rim + blur(draws) * (is_in_space(source) ? 0.5 : 1);
-    point unit = is_in_space(source) ? unit_sphere(draws) : unit_circle(draws);
-    return site_at(source->lattice, (point){radius * unit.x, radius * unit.y, radius * unit.z});
-}
-
-snow_site snow_source_launch(const snow_source_of_walkers *source, snow_draws *draws)
-{
-    snow_draws_end_block(draws);
-    snow_site site = launch(source, draws);
-    snow_draws_end_block(draws);
-    return site;
+    return site.x == SNOW_SOURCE_INFINITY;
 }
 
 /* The disc |w| < 1 is turned so that 0 goes to a, where the walker's mirror image
    in the circle is: a uniform point of the circle then goes where a Brownian
    walker would arrive. */
-static point return_to_circle(double radius, point from, snow_draws *draws)
+static point return_to_circle(double radius, point from, snow_vector u)
 {
     double square = squared(from);
     double ax = radius * from.x / square;
     double ay = radius * from.y / square;
-    point u = unit_circle(draws);
     double top_x = u.x + ax;
     double top_y = u.y + ay;
     double bottom_x = 1 + ax * u.x + ay * u.y;
@@ -197,16 +154,27 @@ static point return_to_circle(double radius, point from, snow_draws *draws)
     return (point){(top_x * bottom_x + top_y * bottom_y) * scale, (top_y * bottom_x - top_x * bottom_y) * scale, 0};
 }
 
+static snow_site come_in_plane(const snow_source_of_walkers *source, snow_site site, uint64_t number)
+{
+    snow_vector unit = snow_direction_of(number);
+    if (snow_source_is_at_infinity(site)) {
+        double radius = source->rim + snow_blur(number);
+        return site_at(source->lattice, (point){radius * unit.x, radius * unit.y, 0});
+    }
+    double radius = (double)(source->far / 2) + snow_blur(number);
+    return site_at(source->lattice, return_to_circle(radius, point_of(source->lattice, site), unit));
+}
+
 /* The cosine of the angle at the centre between start and arrival has a simple
    inverse distribution; the direction round the axis is uniform. */
-static point return_to_sphere(double radius, point from, double distance, snow_draws *draws)
+static point return_to_sphere(double radius, point from, double distance, const uint64_t number[2])
 {
     double g = radius / distance;
-    double u = snow_draws_uniform(draws);
+    double u = (centred(number[1]) + 1) * 0.5;
     double ratio = (1 - g * g) / (1 - g + 2 * g * u);
     double cosine = (1 + g * g - ratio * ratio) / (2 * g);
     double sine = cosine * cosine < 1 ? sqrt(1 - cosine * cosine) : 0;
-    point around = unit_circle(draws);
+    snow_vector around = snow_direction_of(number[0]);
     point axis = {from.x / distance, from.y / distance, from.z / distance};
     /* Two unit vectors across the axis; T. Duff et al., J. Comput. Graph. Tech. 6 (2017) 1. */
     double sign = axis.z < 0 ? -1 : 1;
@@ -221,26 +189,33 @@ static point return_to_sphere(double radius, point from, double distance, snow_d
                    radius * (cosine * axis.z + c * first.z + d * second.z)};
 }
 
-static snow_site come_back(const snow_source_of_walkers *source, snow_site site, snow_draws *draws)
+/* Uniform: what of a block neither directions nor blurs use. */
+static double level_of(const uint64_t number[2])
+{
+    return (double)(number[1] & 0xFFFFFFFF) * 0x1p-32;
+}
+
+static snow_site come_in_space(const snow_source_of_walkers *source, snow_site site, const uint64_t number[2])
+{
+    point from = point_of(source->lattice, site);
+    double distance = sqrt(squared(from));
+    double radius = (double)(source->far / 2) + snow_blur(number[0]);
+    if (!snow_source_is_at_infinity(site) && level_of(number) * distance < radius)
+        return site_at(source->lattice, return_to_sphere(radius, from, distance, number));
+    radius = source->rim + snow_blur(number[0]);
+    point unit = unit_sphere(number);
+    return site_at(source->lattice, (point){radius * unit.x, radius * unit.y, radius * unit.z});
+}
+
+snow_site snow_source_come_in(const snow_source_of_walkers *source, snow_site site, snow_draws *draws)
 {
     if (source->width > 0)
         return launch_in_vessel(source, draws);
-    point from = point_of(source->lattice, site);
-    double radius = (double)(source->far / 2) + blur(draws);
     if (!is_in_space(source))
-        return site_at(source->lattice, return_to_circle(radius, from, draws));
-    double distance = sqrt(squared(from));
-    if (snow_draws_uniform(draws) * distance >= radius)
-        return launch(source, draws);
-    return site_at(source->lattice, return_to_sphere(radius, from, distance, draws));
-}
-
-snow_site snow_source_return(const snow_source_of_walkers *source, snow_site site, snow_draws *draws)
-{
-    snow_draws_end_block(draws);
-    site = come_back(source, site, draws);
-    snow_draws_end_block(draws);
-    return site;
+        return come_in_plane(source, site, snow_draws_next(draws));
+    uint64_t number[2];
+    snow_draws_take_block(draws, number);
+    return come_in_space(source, site, number);
 }
 
 double snow_source_clear_ball(const snow_source_of_walkers *source, snow_site site)
@@ -264,33 +239,30 @@ double snow_source_sphere_density(double radius, double x, double y, double z)
     return 1 + 5.25 * a * (1 + 0.275 * a) * fourth + a * a * (1.625 * sixth - 11.15625 * eighth);
 }
 
-/* By rejection: most numbers need no density, and hardly any is rejected. */
-static point unit_sphere_of_lattice(double radius, snow_draws *draws)
+/* Most numbers need no density, and hardly any is rejected. */
+static bool is_accepted(double radius, point unit, double level)
 {
     double most = 5.5 / (radius * radius); /* what the density differs from 1 by */
-    for (;;) {
-        point unit = unit_sphere(draws);
-        double level = snow_draws_uniform(draws) * (1 + most);
-        if (level < 1 - most || level < snow_source_sphere_density(radius, unit.x, unit.y, unit.z))
-            return unit;
-    }
+    level *= 1 + most;
+    return level < 1 - most || level < snow_source_sphere_density(radius, unit.x, unit.y, unit.z);
 }
 
 snow_site snow_source_sphere(snow_site site, double ball, snow_draws *draws)
 {
-    double inside = ball - 1 - blur(draws) * 0.5;
-    point unit = unit_sphere_of_lattice(inside, draws);
-    point from = point_of(SNOW_AGGREGATE_CUBIC, site);
-    return site_at(SNOW_AGGREGATE_CUBIC,
-                   (point){from.x + inside * unit.x, from.y + inside * unit.y, from.z + inside * unit.z});
+    uint64_t number[2];
+    snow_draws_take_block(draws, number);
+    double inside = ball - 1 - snow_blur(number[0]);
+    point unit = unit_sphere(number);
+    if (!is_accepted(inside, unit, level_of(number)))
+        return site;
+    snow_site step = site_at(SNOW_AGGREGATE_CUBIC, (point){inside * unit.x, inside * unit.y, inside * unit.z});
+    return (snow_site){site.x + step.x, site.y + step.y, site.z + step.z};
 }
 
-snow_site snow_source_circle(snow_site site, int32_t radius, snow_draws *draws)
+snow_site snow_source_circle(snow_site site, int32_t radius, uint64_t number)
 {
-    snow_draws_end_block(draws);
-    double inside = radius * HALF_SQRT_3 - 2 - blur(draws);
-    point unit = unit_circle(draws);
-    snow_draws_end_block(draws);
-    point from = point_of(SNOW_AGGREGATE_HEXAGONAL, site);
-    return site_at(SNOW_AGGREGATE_HEXAGONAL, (point){from.x + inside * unit.x, from.y + inside * unit.y, 0});
+    double inside = radius * HALF_SQRT_3 - (1 + SNOW_BLUR_WIDTH) + snow_blur(number);
+    snow_vector unit = snow_direction_of(number);
+    snow_site step = site_at(SNOW_AGGREGATE_HEXAGONAL, (point){inside * unit.x, inside * unit.y, 0});
+    return (snow_site){site.x + step.x, site.y + step.y, 0};
 }

@@ -3,133 +3,72 @@
 #include <string.h>
 
 enum {
-    LINES_REACH = SNOW_SPACE_SITES,
     NEAR_REACH = SNOW_SPACE_NEAR,
     FAR_REACH = SNOW_SPACE_FAR,
-    CUBES_REACH = SNOW_SPACE_CUBES,
     SIDES = SNOW_SPACE_SIDES,
-    PAIRS = SNOW_SPACE_PAIRS,
-    ROWS = SNOW_SPACE_ROWS,
-    UNKNOWN = (LINES_REACH + 1) << 8 /* of a pair that is further away */
+    MOST_PAGES = 1 << 26, /* vectors look things up by 32 bits with a sign */
+    MOST_LINES = 1 << 26
 };
 
-static int64_t magnitude(int64_t x)
+/* One more site may need so many. */
+enum { PAGES_OF_A_SITE = (SIDES + 1) * (SIDES + 1) * (SIDES + 1), LINES_OF_A_SITE = 27 };
+
+static int32_t magnitude(int32_t x)
 {
     return x < 0 ? -x : x;
 }
 
-static int64_t at_least(int64_t x, int64_t least)
+static int32_t at_least(int32_t x, int32_t least)
 {
     return x < least ? least : x;
 }
 
-static int64_t at_most(int64_t x, int64_t most)
+static int32_t at_most(int32_t x, int32_t most)
 {
     return x > most ? most : x;
 }
 
-static int64_t apart(int64_t i, int64_t j, int64_t k)
+static int32_t apart(int32_t i, int32_t j, int32_t k)
 {
     return at_least(at_least(magnitude(i), magnitude(j)), magnitude(k));
 }
 
-/* Distance to the special sites that a filled site at 0 makes. */
-static int64_t distance_to_contact(int64_t x, int64_t y, int64_t z)
-{
-    int64_t least = apart(x, y, z);
-    for (int step = -1; step <= 1; step += 2) {
-        least = at_most(least, apart(x - step, y, z));
-        least = at_most(least, apart(x, y - step, z));
-        least = at_most(least, apart(x, y, z - step));
-    }
-    return least;
-}
-
-/* What a line says of a pair, where the filled site lies so far from the pair's first one. */
-static int16_t print_of_pair(int64_t x, int64_t y, int64_t z)
-{
-    int64_t distance[8];
-    int64_t least = LINES_REACH + 1;
-    for (int site = 0; site < 8; site++) {
-        distance[site] = distance_to_contact(x - site % 2, y - site / 2 % 2, z - site / 4);
-        least = at_most(least, distance[site]);
-    }
-    int print = (int)least << 8;
-    for (int site = 0; site < 8 && least <= LINES_REACH; site++)
-        print |= (distance[site] > least) << site;
-    return (int16_t)print;
-}
-
-static void make_print(snow_space_print *print, int place)
-{
-    for (int line = 0; line < SNOW_SPACE_LINES; line++) {
-        for (int layer = 0; layer < PAIRS; layer++) {
-            for (int row = 0; row < ROWS; row++) {
-                for (int i = 0; i < 4; i++) {
-                    int x = place % 8 - 2 * (4 * (line - 1) + i);
-                    int y = place / 8 % 2 - 2 * (row - ROWS / 2);
-                    int z = place / 16 - 2 * (layer - PAIRS / 2);
-                    print->pair[line][layer][row][i] = print_of_pair(x, y, z);
-                }
-            }
-        }
-    }
-}
-
-typedef uint8_t sixteen __attribute__((vector_size(16))); /* blocks of a layer of a page */
-typedef int16_t eight __attribute__((vector_size(16)));   /* pairs of two rows of a line */
+typedef int8_t sixteen __attribute__((vector_size(16))); /* blocks of a layer of a page */
 
 /* Nobody else writes, so all may be read as plain numbers. */
-static sixteen get_sixteen(const void *from)
+static sixteen get(const void *from)
 {
     sixteen numbers;
     memcpy(&numbers, from, sizeof numbers);
     return numbers;
 }
 
-static eight get_eight(const void *from)
+static void put(_Atomic uintptr_t *to, sixteen numbers)
 {
-    eight numbers;
-    memcpy(&numbers, from, sizeof numbers);
-    return numbers;
-}
-
-static void put(_Atomic uintptr_t *to, const void *sixteen_bytes)
-{
-    for (size_t i = 0; i < 16 / sizeof *to; i++) {
-        uintptr_t word;
-        memcpy(&word, (const char *)sixteen_bytes + i * sizeof word, sizeof word);
-        SNOW_MAP_PUT(to[i], word);
-    }
+    uintptr_t word[16 / sizeof(uintptr_t)];
+    memcpy(word, &numbers, sizeof word);
+    for (size_t i = 0; i < 16 / sizeof *to; i++)
+        SNOW_MAP_PUT(to[i], word[i]);
 }
 
 /* Whether any of 16 bytes is not 0. */
-static bool has_any(const void *sixteen_bytes)
+static bool has_any(sixteen bytes)
 {
     uint64_t half[2];
-    memcpy(half, sixteen_bytes, sizeof half);
+    memcpy(half, &bytes, sizeof half);
     return (half[0] | half[1]) != 0;
 }
 
 static sixteen lesser(sixteen a, sixteen b)
 {
-    sixteen choose = (sixteen)(a < b);
+    sixteen choose = a < b;
     return (a & choose) | (b & ~choose);
 }
 
 static sixteen greater(sixteen a, sixteen b)
 {
-    sixteen choose = (sixteen)(a < b);
+    sixteen choose = a < b;
     return (b & choose) | (a & ~choose);
-}
-
-/* Where the least distances of a pair are equal, so are those of the sites that are so near to either; else the
-   nearer one has it all: distances differ by at most 1. */
-static eight nearer(eight known, eight print)
-{
-    eight not_further = print <= (known | 255);
-    eight further = (print | 255) < known;
-    return (known & (print | ~not_further) & ~further) | (print & further);
 }
 
 static size_t tiles_of(snow_space_box box)
@@ -137,71 +76,134 @@ static size_t tiles_of(snow_space_box box)
     return (size_t)box.columns * box.rows * box.layers;
 }
 
-static size_t cubes_of(snow_space_box box)
-{
-    return tiles_of(box) / 64;
-}
-
-static size_t tile_index(const snow_space_box *box, int64_t column, int64_t row, int64_t layer)
-{
-    return ((size_t)layer * box->rows + (size_t)row) * box->columns + (size_t)column;
-}
-
-/* Of the cube with a tile. */
-static size_t cube_index(const snow_space_box *box, int64_t column, int64_t row, int64_t layer)
-{
-    return ((size_t)(layer / 4) * (box->rows / 4) + (size_t)(row / 4)) * (box->columns / 4) + (size_t)(column / 4);
-}
-
-static void start_page(snow_space_map *map, snow_space_page *page, uint8_t class, int distance)
-{
-    page->changed = map->landing;
-    page->most = class;
-    page->distance = (uint8_t)distance;
-    for (int i = 0; i < 64; i++)
-        atomic_init(&page->near.block[i], class);
-    for (int i = 0; i < 8; i++)
-        atomic_init(&page->line[i], &map->nothing.line);
-}
-
-static void start_line(snow_space_line *line)
-{
-    for (int i = 0; i < 64; i++)
-        atomic_init(&line->pair[i], UNKNOWN);
-}
-
 static snow_status cover(snow_space_map *map, snow_heap *heap, snow_space_box box)
 {
-    if ((uint64_t)box.columns * box.rows * box.layers > SIZE_MAX / sizeof *map->tile)
+    if ((uint64_t)box.columns * box.rows * box.layers > INT32_MAX)
         return SNOW_ERROR_TOO_LARGE;
-    snow_space_page *_Atomic *tile = snow_heap_get_raw(heap, tiles_of(box), sizeof *tile);
-    snow_space_page *cube = snow_heap_get_raw(heap, cubes_of(box), sizeof *cube);
-    uint8_t *cube_distance = snow_heap_get_raw(heap, cubes_of(box), 1);
-    if (tile == NULL || cube == NULL || cube_distance == NULL) {
-        snow_heap_put(heap, cube_distance);
-        snow_heap_put(heap, cube);
-        snow_heap_put(heap, tile);
+    _Atomic uint32_t *tile = snow_heap_get_raw(heap, tiles_of(box), sizeof *tile);
+    uint32_t *changed = snow_heap_get_raw(heap, tiles_of(box), sizeof *changed);
+    uint8_t *most = snow_heap_get_raw(heap, tiles_of(box), sizeof *most);
+    if (tile == NULL || changed == NULL || most == NULL) {
+        snow_heap_put(heap, most);
+        snow_heap_put(heap, changed);
+        snow_heap_put(heap, (void *)tile);
         return heap->refusal;
     }
-    memset(cube_distance, CUBES_REACH + 1, cubes_of(box));
-    for (size_t i = 0; i < cubes_of(box); i++)
-        start_page(map, &cube[i], map->cube_class[CUBES_REACH + 1], FAR_REACH + 1);
-    for (uint32_t layer = 0; layer < box.layers; layer++)
-        for (uint32_t row = 0; row < box.rows; row++)
-            for (uint32_t column = 0; column < box.columns; column++)
-                atomic_init(&tile[tile_index(&box, column, row, layer)], &cube[cube_index(&box, column, row, layer)]);
+    memset(most, UINT8_MAX, tiles_of(box));
+    for (size_t i = 0; i < tiles_of(box); i++) {
+        atomic_init(&tile[i], SNOW_SPACE_SHARED - 1);
+        changed[i] = (uint32_t)map->landing;
+    }
     map->box = box;
     map->tile = tile;
-    map->cube = cube;
-    map->cube_distance = cube_distance;
+    map->changed = changed;
+    map->most = most;
     return SNOW_OK;
 }
 
 static void uncover(const snow_space_map *map, snow_heap *heap)
 {
-    snow_heap_put(heap, map->cube_distance);
-    snow_heap_put(heap, map->cube);
-    snow_heap_put(heap, map->tile);
+    snow_heap_put(heap, map->most);
+    snow_heap_put(heap, map->changed);
+    snow_heap_put(heap, (void *)map->tile);
+}
+
+static uint32_t more_than(uint32_t room)
+{
+    return room + room / 4;
+}
+
+static snow_status add_pages(snow_space_map *map, snow_heap *heap)
+{
+    uint32_t room = more_than(map->pages + PAGES_OF_A_SITE);
+    if (room > MOST_PAGES)
+        return SNOW_ERROR_TOO_LARGE;
+    snow_space_near *near = snow_heap_move(heap, map->near, map->pages, room, sizeof *near);
+    if (near == NULL)
+        return heap->refusal;
+    map->near = near;
+    snow_space_links *links = snow_heap_move(heap, map->links, map->pages, room, sizeof *links);
+    if (links == NULL)
+        return heap->refusal;
+    map->links = links;
+    map->page_room = room;
+    return SNOW_OK;
+}
+
+static snow_status add_lines(snow_space_map *map, snow_heap *heap)
+{
+    uint32_t room = more_than(map->lines + LINES_OF_A_SITE);
+    if (room > MOST_LINES)
+        return SNOW_ERROR_TOO_LARGE;
+    snow_space_line *line = snow_heap_move(heap, map->line, map->lines, room, sizeof *line);
+    if (line == NULL)
+        return heap->refusal;
+    map->line = line;
+    snow_space_matter *matter = NULL;
+    if (map->keeps_matter) {
+        matter = snow_heap_move(heap, map->matter, map->lines, room, sizeof *matter);
+        if (matter == NULL)
+            return heap->refusal;
+    }
+    map->matter = matter;
+    map->line_room = room;
+    return SNOW_OK;
+}
+
+static bool has_pages(const snow_space_map *map)
+{
+    return map->pages + PAGES_OF_A_SITE <= map->page_room;
+}
+
+static bool has_lines(const snow_space_map *map)
+{
+    return map->lines + LINES_OF_A_SITE <= map->line_room;
+}
+
+bool snow_space_map_has_room(const snow_space_map *map)
+{
+    return has_pages(map) && has_lines(map);
+}
+
+snow_status snow_space_map_reserve(snow_space_map *map, snow_heap *heap)
+{
+    snow_status status = has_pages(map) ? SNOW_OK : add_pages(map, heap);
+    if (status == SNOW_OK && !has_lines(map))
+        status = add_lines(map, heap);
+    return status;
+}
+
+/* There is room. */
+static uint32_t take_page(snow_space_map *map, uint8_t class)
+{
+    for (int i = 0; i < 64; i++)
+        atomic_init(&map->near[map->pages].block[i], class);
+    for (int i = 0; i < 8; i++)
+        atomic_init(&map->links[map->pages].line[i], 0);
+    return map->pages++;
+}
+
+static uint32_t take_line(snow_space_map *map)
+{
+    snow_space_line_start(&map->line[map->lines]);
+    if (map->keeps_matter)
+        memset(&map->matter[map->lines], 0, sizeof *map->matter);
+    return map->lines++;
+}
+
+static uint8_t class_of(const snow_exits *exits, int32_t free)
+{
+    return (uint8_t)snow_exits_class(exits, free + 1);
+}
+
+/* What each distance leaves free, at least. */
+static void make_classes(snow_space_map *map, const snow_exits *exits)
+{
+    for (int d = 0; d <= NEAR_REACH + 1; d++)
+        map->near_number[d] = d < SNOW_SPACE_LOOK ? (uint8_t)d : class_of(exits, 4 * (d - 1));
+    take_page(map, SNOW_MAP_BEYOND);
+    for (int d = 1; d <= FAR_REACH + 1; d++)
+        take_page(map, class_of(exits, 16 * (d - 1)));
 }
 
 static void make_near(snow_space_map *map)
@@ -211,216 +213,217 @@ static void make_near(snow_space_map *map)
             for (int place = 0; place < 16; place++) {
                 int i = place % 4 + 4 * (side % SIDES - SIDES / 2) - from % 4;
                 int j = place / 4 + 4 * (side / SIDES - SIDES / 2) - from / 4;
-                map->near_in_layer[from][side][place] = map->near[at_most(apart(i, j, 0), NEAR_REACH + 1)];
+                map->near_in_layer[from][side][place] =
+                    (int8_t)map->near_number[at_most(apart(i, j, 0), NEAR_REACH + 1)];
             }
         }
     }
 }
 
-static uint8_t class_of(const snow_exits *exits, int64_t free)
-{
-    return (uint8_t)snow_exits_class(exits, free + 1);
-}
-
-/* What each distance leaves free, at least. */
-static void make_classes(snow_space_map *map, const snow_exits *exits)
-{
-    for (int d = 0; d <= NEAR_REACH + 1; d++)
-        map->near[d] = d < SNOW_SPACE_LOOK ? (uint8_t)d : class_of(exits, 4 * (d - 1));
-    for (int d = 1; d <= FAR_REACH; d++)
-        start_page(map, &map->far[d], class_of(exits, 16 * (d - 1)), d);
-    for (int d = 0; d <= CUBES_REACH + 1; d++)
-        map->cube_class[d] = class_of(exits, at_least(64 * (d - 1), 16 * FAR_REACH));
-}
-
 snow_status snow_space_map_start(snow_space_map *map, snow_heap *heap, const snow_exits *exits, bool keeps_matter,
-                                 snow_space_box box)
+                                 snow_space_box box, snow_isa isa)
 {
-    enum { PLACES = 32 };
-    *map = (snow_space_map){
-        .pages = {.item = sizeof(snow_space_page)},
-        .lines = {.item = keeps_matter ? sizeof(snow_space_matter) : sizeof(snow_space_line)},
-        .keeps_matter = keeps_matter,
-    };
-    start_line(&map->nothing.line);
-    start_page(map, &map->outside, SNOW_MAP_BEYOND, 0);
-    make_classes(map, exits);
-    make_near(map);
-    map->print = snow_heap_get_raw(heap, PLACES, sizeof *map->print);
-    snow_status status = map->print == NULL ? heap->refusal : cover(map, heap, box);
+    *map = (snow_space_map){.keeps_matter = keeps_matter, .lower = snow_space_line_choose(isa)};
+    map->prints = snow_heap_get_raw(heap, SNOW_SPACE_PRINTS, sizeof *map->prints);
+    snow_status status = map->prints == NULL ? heap->refusal : cover(map, heap, box);
+    if (status == SNOW_OK)
+        status = snow_space_map_reserve(map, heap);
     if (status != SNOW_OK) {
         snow_space_map_end(map, heap);
         return status;
     }
-    for (int place = 0; place < PLACES; place++)
-        make_print(&map->print[place], place);
+    take_line(map); /* where nothing is near */
+    make_classes(map, exits);
+    make_near(map);
+    snow_space_prints_make(map->prints);
     return SNOW_OK;
 }
 
 void snow_space_map_end(snow_space_map *map, snow_heap *heap)
 {
-    snow_pool_end(&map->lines, heap);
-    snow_pool_end(&map->pages, heap);
-    snow_heap_put(heap, map->print);
+    snow_heap_put(heap, map->matter);
+    snow_heap_put(heap, map->line);
+    snow_heap_put(heap, map->links);
+    snow_heap_put(heap, map->near);
+    snow_heap_put(heap, map->prints);
     uncover(map, heap);
-    map->print = NULL;
-    map->cube_distance = NULL;
-    map->cube = NULL;
-    map->tile = NULL;
+    *map = (snow_space_map){.landing = 0};
 }
 
-static snow_space_page *_Atomic *tile_at(snow_space_map *map, int64_t column, int64_t row, int64_t layer)
+/* A box of tiles or lines round one of them, cut off where the map ends. */
+typedef struct range {
+    int32_t first[3];
+    int32_t last[3];
+} range;
+
+static range tiles_round(const snow_space_box *box, int32_t i, int32_t j, int32_t k, int32_t reach)
 {
-    return &map->tile[tile_index(&map->box, column, row, layer)];
+    return (range){{at_least(i - reach, 0), at_least(j - reach, 0), at_least(k - reach, 0)},
+                   {at_most(i + reach, (int32_t)box->columns - 1), at_most(j + reach, (int32_t)box->rows - 1),
+                    at_most(k + reach, (int32_t)box->layers - 1)}};
 }
 
-static bool holds_special(const snow_space_page *page)
+static uint32_t tile_at(const snow_space_map *map, int32_t column, int32_t row, int32_t layer)
 {
-    return memchr((const void *)&page->near, 0, sizeof page->near) != NULL;
+    return snow_space_map_number(map, (uint32_t)column, (uint32_t)row, (uint32_t)layer);
 }
 
-/* The page with the block (i, j, k). */
-static snow_space_page *page_with(snow_space_map *map, int64_t i, int64_t j, int64_t k)
+static void has_changed(snow_space_map *map, uint32_t tile)
 {
-    snow_space_page *_Atomic *entry = tile_at(map, i / 4, j / 4, k / 4);
-    snow_space_page *page = SNOW_MAP_GET(*entry);
-    if (page->distance == 0)
+    map->changed[tile] = (uint32_t)map->landing;
+}
+
+/* A tile's own page. */
+static uint32_t page_of(snow_space_map *map, uint32_t tile)
+{
+    uint32_t page = SNOW_MAP_GET(map->tile[tile]);
+    if (page >= SNOW_SPACE_SHARED)
         return page;
-    page = snow_pool_take(&map->pages);
-    start_page(map, page, map->near[NEAR_REACH + 1], 0);
-    SNOW_MAP_PUT_ADDRESS(*entry, page);
+    page = take_page(map, map->near_number[NEAR_REACH + 1]);
+    map->most[tile] = map->near_number[NEAR_REACH + 1];
+    has_changed(map, tile);
+    SNOW_MAP_PUT_ADDRESS(map->tile[tile], page);
     return page;
 }
 
-static _Atomic uint8_t *near_at(snow_space_map *map, int64_t i, int64_t j, int64_t k)
+/* The line of a tile's own page, to be written to. */
+static uint32_t line_of(snow_space_map *map, uint32_t tile, uint32_t octant)
 {
-    return &page_with(map, i, j, k)->near.block[snow_space_place((uint32_t)i, (uint32_t)j, (uint32_t)k)];
+    _Atomic uint32_t *link = &map->links[page_of(map, tile)].line[octant];
+    uint32_t line = SNOW_MAP_GET(*link);
+    if (line == 0) {
+        line = take_line(map);
+        SNOW_MAP_PUT_ADDRESS(*link, line);
+    }
+    return line;
 }
 
-/* A box of blocks, tiles or cubes round one of them, cut off where the map ends. */
-typedef struct range {
-    int64_t first[3];
-    int64_t last[3];
-} range;
-
-static range range_round(int64_t i, int64_t j, int64_t k, int64_t reach, const snow_space_box *box, int64_t parts,
-                         int64_t wholes)
+static bool holds_special(const snow_space_map *map, uint32_t tile)
 {
-    return (range){{at_least(i - reach, 0), at_least(j - reach, 0), at_least(k - reach, 0)},
-                   {at_most(i + reach, box->columns * parts / wholes - 1),
-                    at_most(j + reach, box->rows * parts / wholes - 1),
-                    at_most(k + reach, box->layers * parts / wholes - 1)}};
+    uint32_t page = SNOW_MAP_GET(map->tile[tile]);
+    return page >= SNOW_SPACE_SHARED && memchr((const void *)&map->near[page], 0, sizeof *map->near) != NULL;
 }
 
 static uint8_t greatest(sixteen numbers)
 {
-    uint8_t most = 0;
+    int8_t most = 0;
     for (int i = 0; i < 16; i++)
         most = numbers[i] > most ? numbers[i] : most;
-    return most;
+    return (uint8_t)most;
 }
 
 /* A layer of 4 x 4 blocks at a time: numbers in a layer are known, and none is
    less than that of the layers. */
-static void lower_page(snow_space_map *map, snow_space_page *page, const uint8_t *near_in_layer, int64_t layers)
+static void lower_page(snow_space_map *map, uint32_t tile, const int8_t *near_in_layer, int32_t layers)
 {
-    sixteen in_layer = get_sixteen(near_in_layer);
+    snow_space_near *near = &map->near[page_of(map, tile)];
+    enum { WORDS = 16 / sizeof near->word[0] };
+    sixteen in_layer = get(near_in_layer);
     sixteen most = {0};
     sixteen lowers = {0};
     sixteen now[4];
     for (int layer = 0; layer < 4; layer++) {
-        sixteen known = get_sixteen((const char *)&page->near + 16 * layer);
-        sixteen least = (sixteen){0} + map->near[at_most(magnitude(layers + layer), NEAR_REACH + 1)];
+        sixteen known = get(&near->word[layer * WORDS]);
+        int8_t number = (int8_t)map->near_number[at_most(magnitude(layers + layer), NEAR_REACH + 1)];
+        sixteen least = (sixteen){0} + number;
         now[layer] = lesser(known, greater(in_layer, least));
         most = greater(most, now[layer]);
         lowers |= now[layer] ^ known;
     }
-    if (!has_any(&lowers))
+    if (!has_any(lowers))
         return;
-    for (size_t layer = 0; layer < 4; layer++)
-        put(page->near.word + layer * (16 / sizeof page->near.word[0]), &now[layer]);
-    page->most = greatest(most);
-    page->changed = map->landing;
+    for (int layer = 0; layer < 4; layer++)
+        put(&near->word[layer * WORDS], now[layer]);
+    map->most[tile] = greatest(most);
+    has_changed(map, tile);
 }
 
 /* How far a block is from the blocks of a tile, in one direction. */
-static int64_t apart_from_tile(int64_t block, int64_t tile)
+static int32_t apart_from_tile(int32_t block, int32_t tile)
 {
     return at_least(at_least(4 * tile - block, block - 4 * tile - 3), 0);
 }
 
 /* The block (i, j, k) has got its first special site. */
-static void spread_near(snow_space_map *map, int64_t i, int64_t j, int64_t k)
+static void spread_near(snow_space_map *map, int32_t i, int32_t j, int32_t k)
 {
-    range tiles = range_round(i / 4, j / 4, k / 4, SIDES / 2, &map->box, 1, 1);
-    for (int64_t z = tiles.first[2]; z <= tiles.last[2]; z++) {
-        for (int64_t y = tiles.first[1]; y <= tiles.last[1]; y++) {
-            for (int64_t x = tiles.first[0]; x <= tiles.last[0]; x++) {
-                int64_t d = apart(apart_from_tile(i, x), apart_from_tile(j, y), apart_from_tile(k, z));
-                if (d > NEAR_REACH)
-                    continue;
-                snow_space_page *page = page_with(map, 4 * x, 4 * y, 4 * z);
-                if (page->most <= map->near[d])
-                    continue;
-                int64_t side = (y - j / 4 + SIDES / 2) * SIDES + x - i / 4 + SIDES / 2;
-                lower_page(map, page, map->near_in_layer[j % 4 * 4 + i % 4][side], 4 * z - k);
-            }
-        }
-    }
-}
-
-static void spread_cube(snow_space_map *map, int64_t i, int64_t j, int64_t k)
-{
-    range all = range_round(i, j, k, CUBES_REACH, &map->box, 1, 4);
-    for (int64_t z = all.first[2]; z <= all.last[2]; z++) {
-        for (int64_t y = all.first[1]; y <= all.last[1]; y++) {
-            for (int64_t x = all.first[0]; x <= all.last[0]; x++) {
-                int64_t d = apart(x - i, y - j, z - k);
-                size_t index = cube_index(&map->box, 4 * x, 4 * y, 4 * z);
-                if (d >= map->cube_distance[index])
-                    continue;
-                map->cube_distance[index] = (uint8_t)d;
-                for (int place = 0; place < 64; place++)
-                    SNOW_MAP_PUT(map->cube[index].near.block[place], map->cube_class[d]);
-                map->cube[index].changed = map->landing;
+    range tiles = tiles_round(&map->box, i / 4, j / 4, k / 4, SIDES / 2);
+    for (int32_t z = tiles.first[2]; z <= tiles.last[2]; z++) {
+        for (int32_t y = tiles.first[1]; y <= tiles.last[1]; y++) {
+            int32_t across = at_least(apart_from_tile(j, y), apart_from_tile(k, z));
+            uint32_t tile = tile_at(map, tiles.first[0], y, z);
+            for (int32_t x = tiles.first[0]; x <= tiles.last[0]; x++, tile++) {
+                int32_t side = (y - j / 4 + SIDES / 2) * SIDES + x - i / 4 + SIDES / 2;
+                if (map->most[tile] > map->near_number[at_least(apart_from_tile(i, x), across)])
+                    lower_page(map, tile, map->near_in_layer[j % 4 * 4 + i % 4][side], 4 * z - k);
             }
         }
     }
 }
 
 /* The tile (i, j, k) has got its first special site. */
-static void spread_tile(snow_space_map *map, int64_t i, int64_t j, int64_t k)
+static void spread_tile(snow_space_map *map, int32_t i, int32_t j, int32_t k)
 {
-    range all = range_round(i, j, k, FAR_REACH, &map->box, 1, 1);
-    for (int64_t z = all.first[2]; z <= all.last[2]; z++) {
-        for (int64_t y = all.first[1]; y <= all.last[1]; y++) {
-            for (int64_t x = all.first[0]; x <= all.last[0]; x++) {
-                snow_space_page *_Atomic *entry = tile_at(map, x, y, z);
-                snow_space_page *page = SNOW_MAP_GET(*entry);
-                int64_t d = apart(x - i, y - j, z - k);
-                if (d >= page->distance)
-                    continue;
-                map->far[d].changed = map->landing;
-                SNOW_MAP_PUT_ADDRESS(*entry, &map->far[d]);
+    range all = tiles_round(&map->box, i, j, k, FAR_REACH);
+    for (int32_t z = all.first[2]; z <= all.last[2]; z++) {
+        for (int32_t y = all.first[1]; y <= all.last[1]; y++) {
+            int32_t across = apart(0, y - j, z - k);
+            uint32_t tile = tile_at(map, all.first[0], y, z);
+            for (int32_t x = all.first[0]; x <= all.last[0]; x++, tile++) {
+                uint32_t distance = (uint32_t)at_least(magnitude(x - i), across);
+                uint32_t page = SNOW_MAP_GET(map->tile[tile]);
+                if (page > distance && page < SNOW_SPACE_SHARED) {
+                    SNOW_MAP_PUT(map->tile[tile], distance);
+                    has_changed(map, tile);
+                }
             }
         }
     }
-    if (map->cube_distance[cube_index(&map->box, i, j, k)] != 0)
-        spread_cube(map, i / 4, j / 4, k / 4);
 }
 
-/* Calls spread_tile() for each tile that holds a special site. */
-static void spread_all_tiles(snow_space_map *map)
+/* The old box as tiles of the new one. */
+static range place_of(const snow_space_map *map, const snow_space_box *old)
 {
-    for (int64_t z = 0; z < map->box.layers; z++) {
-        for (int64_t y = 0; y < map->box.rows; y++) {
-            for (int64_t x = 0; x < map->box.columns; x++) {
-                const snow_space_page *page = SNOW_MAP_GET(*tile_at(map, x, y, z));
-                if (page->distance == 0 && holds_special(page))
-                    spread_tile(map, x, y, z);
-            }
+    int32_t x = (old->x - map->box.x) / 16;
+    int32_t y = (old->y - map->box.y) / 16;
+    int32_t z = (old->z - map->box.z) / 16;
+    return (range){{x, y, z},
+                   {x + (int32_t)old->columns - 1, y + (int32_t)old->rows - 1, z + (int32_t)old->layers - 1}};
+}
+
+/* What was known stays true. */
+static void take_over(snow_space_map *map, const snow_space_map *old)
+{
+    range inner = place_of(map, &old->box);
+    for (uint32_t k = 0; k < old->box.layers; k++) {
+        for (uint32_t j = 0; j < old->box.rows; j++) {
+            uint32_t from = snow_space_map_number(old, 0, j, k);
+            uint32_t to = tile_at(map, inner.first[0], inner.first[1] + (int32_t)j, inner.first[2] + (int32_t)k);
+            memcpy(&map->most[to], &old->most[from], old->box.columns);
+            for (uint32_t i = 0; i < old->box.columns; i++)
+                SNOW_MAP_PUT(map->tile[to + i], SNOW_MAP_GET(old->tile[from + i]));
         }
     }
+}
+
+static bool is_near_side(const range *inner, int32_t i, int32_t j, int32_t k)
+{
+    const int32_t place[3] = {i, j, k};
+    int32_t least = FAR_REACH;
+    for (int side = 0; side < 3; side++)
+        least = at_most(least, at_most(place[side] - inner->first[side], inner->last[side] - place[side]));
+    return least < FAR_REACH;
+}
+
+/* What special tiles near the old sides say about what lies beyond. */
+static void spread_beyond(snow_space_map *map, const snow_space_box *old)
+{
+    range inner = place_of(map, old);
+    for (int32_t z = inner.first[2]; z <= inner.last[2]; z++)
+        for (int32_t y = inner.first[1]; y <= inner.last[1]; y++)
+            for (int32_t x = inner.first[0]; x <= inner.last[0]; x++)
+                if (is_near_side(&inner, x, y, z) && holds_special(map, tile_at(map, x, y, z)))
+                    spread_tile(map, x, y, z);
 }
 
 snow_status snow_space_map_widen(snow_space_map *map, snow_heap *heap, snow_space_box box)
@@ -429,133 +432,106 @@ snow_status snow_space_map_widen(snow_space_map *map, snow_heap *heap, snow_spac
     snow_status status = cover(map, heap, box);
     if (status != SNOW_OK)
         return status;
-    int64_t shift_x = ((int64_t)old.box.x - box.x) / 16;
-    int64_t shift_y = ((int64_t)old.box.y - box.y) / 16;
-    int64_t shift_z = ((int64_t)old.box.z - box.z) / 16;
-    for (int64_t z = 0; z < old.box.layers; z++) {
-        for (int64_t y = 0; y < old.box.rows; y++) {
-            for (int64_t x = 0; x < old.box.columns; x++) {
-                snow_space_page *page = SNOW_MAP_GET(*tile_at(&old, x, y, z));
-                if (page->distance == 0)
-                    SNOW_MAP_PUT(*tile_at(map, x + shift_x, y + shift_y, z + shift_z), page);
-            }
-        }
-    }
+    take_over(map, &old);
     uncover(&old, heap);
-    spread_all_tiles(map);
+    spread_beyond(map, &old.box);
     return SNOW_OK;
 }
 
-snow_status snow_space_map_reserve(snow_space_map *map, snow_heap *heap)
+static bool is_covered(const snow_space_map *map, int32_t u, int32_t v, int32_t w)
 {
-    enum { LINES = 27, TILES = (SIDES + 2) * (SIDES + 2) * (SIDES + 2) };
-    snow_status status = snow_pool_reserve(&map->pages, heap, TILES);
-    return status == SNOW_OK ? snow_pool_reserve(&map->lines, heap, LINES) : status;
+    return (uint32_t)u / 16 < map->box.columns && (uint32_t)v / 16 < map->box.rows && (uint32_t)w / 16 < map->box.layers;
 }
 
-static bool is_covered(const snow_space_map *map, int64_t u, int64_t v, int64_t w)
-{
-    return u >= 0 && v >= 0 && w >= 0 &&
-           snow_space_map_has(map, (uint32_t)(u / 16), (uint32_t)(v / 16), (uint32_t)(w / 16));
-}
-
-static void add_special(snow_space_map *map, int64_t u, int64_t v, int64_t w)
+static void add_special(snow_space_map *map, int32_t u, int32_t v, int32_t w)
 {
     if (!is_covered(map, u, v, w))
         return;
-    int64_t i = u / 4;
-    int64_t j = v / 4;
-    int64_t k = w / 4;
-    if (SNOW_MAP_GET(*near_at(map, i, j, k)) == 0)
+    int32_t i = u / 4;
+    int32_t j = v / 4;
+    int32_t k = w / 4;
+    uint32_t tile = tile_at(map, i / 4, j / 4, k / 4);
+    uint32_t page = SNOW_MAP_GET(map->tile[tile]);
+    if (SNOW_MAP_GET(map->near[page].block[snow_space_place((uint32_t)i, (uint32_t)j, (uint32_t)k)]) == 0)
         return;
-    bool is_first = !holds_special(page_with(map, i, j, k));
+    bool is_first = !holds_special(map, tile);
     spread_near(map, i, j, k);
     if (is_first)
         spread_tile(map, i / 4, j / 4, k / 4);
 }
 
-/* The line (i, j, k), to be written to. */
-static snow_space_line *line_with(snow_space_map *map, int64_t i, int64_t j, int64_t k)
+/* The step that leads into another block; 0 if there is none. */
+static int32_t to_next_block(int32_t u)
 {
-    snow_space_page *page = page_with(map, 2 * i, 2 * j, 2 * k);
-    uint32_t octant = snow_space_octant((uint32_t)i, (uint32_t)j, (uint32_t)k);
-    snow_space_line *line = SNOW_MAP_GET(page->line[octant]);
-    if (line == &map->nothing.line) {
-        line = snow_pool_take(&map->lines);
-        start_line(line);
-        SNOW_MAP_PUT_ADDRESS(page->line[octant], line);
-    }
-    return line;
+    uint32_t place = (uint32_t)u % 4;
+    return place == 0 ? -1 : place == 3 ? 1 : 0;
 }
 
-/* Rows of 4 pairs, two at a time. The filled site's pair lies so many rows and layers before the first one of the
-   line (i, j, k). */
-static void lower_line(snow_space_map *map, int64_t i, int64_t j, int64_t k, int rows, int layers,
-                       const int16_t (*print)[ROWS][4])
+/* The filled site, and those next to it where that is another block. */
+static void add_specials(snow_space_map *map, int32_t u, int32_t v, int32_t w)
 {
-    snow_space_line *line = line_with(map, i, j, k);
-    int first = 2 * (int)at_least(0, -PAIRS / 2 - layers);
-    int end = 2 * (int)at_most(4, PAIRS / 2 + 1 - layers);
-    eight lowers = {0};
-    eight now[8];
-    for (int n = first; n < end; n++) {
-        eight known = get_eight((const char *)line + 16 * n);
-        now[n] = nearer(known, get_eight(print[layers + n / 2 + PAIRS / 2][rows + n % 2 * 2 + ROWS / 2]));
-        lowers |= now[n] ^ known;
-    }
-    if (!has_any(&lowers))
-        return;
-    for (int n = first; n < end; n++)
-        put(line->word + (size_t)n * (16 / sizeof line->word[0]), &now[n]);
-    page_with(map, 2 * i, 2 * j, 2 * k)->changed = map->landing;
+    add_special(map, u, v, w);
+    if (to_next_block(u) != 0)
+        add_special(map, u + to_next_block(u), v, w);
+    if (to_next_block(v) != 0)
+        add_special(map, u, v + to_next_block(v), w);
+    if (to_next_block(w) != 0)
+        add_special(map, u, v, w + to_next_block(w));
 }
 
-static int64_t floor_of(int64_t x, int64_t unit)
+static int32_t floor_of(int32_t x, int32_t unit)
 {
     return (x + unit * 16) / unit - 16; /* a floor lies at −1 */
 }
 
-/* The sites next to a filled one, and itself. */
-static void add_specials(snow_space_map *map, int64_t u, int64_t v, int64_t w)
+static range lines_round(const snow_space_map *map, int32_t u, int32_t v, int32_t w)
 {
-    add_special(map, u, v, w);
-    for (int step = -1; step <= 1; step += 2) {
-        add_special(map, u + step, v, w);
-        add_special(map, u, v + step, w);
-        add_special(map, u, v, w + step);
-    }
+    enum { REACH = SNOW_SPACE_SITES + 1 };
+    const snow_space_box *box = &map->box;
+    return (range){{at_least(floor_of(u - REACH, 8), 0), at_least(floor_of(v - REACH, 8), 0),
+                    at_least(floor_of(w - REACH, 8), 0)},
+                   {at_most(floor_of(u + REACH, 8), 2 * (int32_t)box->columns - 1),
+                    at_most(floor_of(v + REACH, 8), 2 * (int32_t)box->rows - 1),
+                    at_most(floor_of(w + REACH, 8), 2 * (int32_t)box->layers - 1)}};
 }
 
 /* What lines say, those that a filled site may change. */
-static void lower_lines(snow_space_map *map, int64_t u, int64_t v, int64_t w)
+static void lower_lines(snow_space_map *map, int32_t u, int32_t v, int32_t w)
 {
-    const snow_space_print *print = &map->print[(w & 1) << 4 | (v & 1) << 3 | (u & 7)];
-    const int64_t place[3] = {u, v, w};
-    const int64_t lines[3] = {2 * (int64_t)map->box.columns, 2 * (int64_t)map->box.rows, 2 * (int64_t)map->box.layers};
-    range all;
-    for (int i = 0; i < 3; i++) {
-        all.first[i] = at_least(floor_of(place[i] - LINES_REACH - 1, 8), 0);
-        all.last[i] = at_most(floor_of(place[i] + LINES_REACH + 1, 8), lines[i] - 1);
+    const snow_space_print *print = snow_space_print_of(map->prints, (uint32_t)u, (uint32_t)v, (uint32_t)w);
+    range all = lines_round(map, u, v, w);
+    for (int32_t k = all.first[2]; k <= all.last[2]; k++) {
+        int layers = 4 * k - floor_of(w, 2);
+        for (int32_t j = all.first[1]; j <= all.last[1]; j++) {
+            int rows = 4 * j - floor_of(v, 2);
+            uint32_t row = tile_at(map, 0, j / 2, k / 2);
+            for (int32_t i = all.first[0]; i <= all.last[0]; i++) {
+                uint32_t tile = row + (uint32_t)i / 2;
+                uint32_t line = line_of(map, tile, snow_space_octant((uint32_t)i, (uint32_t)j, (uint32_t)k));
+                if (map->lower(&map->line[line], print, i - floor_of(u, 8), rows, layers))
+                    has_changed(map, tile);
+            }
+        }
     }
-    for (int64_t k = all.first[2]; k <= all.last[2]; k++)
-        for (int64_t j = all.first[1]; j <= all.last[1]; j++)
-            for (int64_t i = all.first[0]; i <= all.last[0]; i++)
-                lower_line(map, i, j, k, (int)(4 * j - floor_of(v, 2)), (int)(4 * k - floor_of(w, 2)),
-                           print->pair[i - floor_of(u, 8) + 1]);
+}
+
+static void keep_matter(snow_space_map *map, uint32_t u, uint32_t v, uint32_t w, bool obstacle)
+{
+    uint32_t tile = snow_space_map_number(map, u / 16, v / 16, w / 16);
+    snow_space_matter *matter = &map->matter[line_of(map, tile, snow_space_octant(u / 8, v / 8, w / 8))];
+    uint32_t place = snow_space_place(u, v, w);
+    uint32_t block = snow_space_octant(u / 4, v / 4, w / 4);
+    _Atomic uint32_t *word = &(obstacle ? matter->obstacle : matter->filled)[block][place / 32];
+    SNOW_MAP_PUT(*word, SNOW_MAP_GET(*word) | UINT32_C(1) << place % 32);
 }
 
 void snow_space_map_add(snow_space_map *map, int32_t x, int32_t y, int32_t z, bool obstacle)
 {
-    int64_t u = (int64_t)x - map->box.x;
-    int64_t v = (int64_t)y - map->box.y;
-    int64_t w = (int64_t)z - map->box.z;
+    int32_t u = x - map->box.x;
+    int32_t v = y - map->box.y;
+    int32_t w = z - map->box.z;
     add_specials(map, u, v, w);
     lower_lines(map, u, v, w);
-    if (!map->keeps_matter || !is_covered(map, u, v, w))
-        return;
-    snow_space_matter *matter = (snow_space_matter *)line_with(map, u / 8, v / 8, w / 8);
-    uint32_t octant = snow_space_octant((uint32_t)(u / 4), (uint32_t)(v / 4), (uint32_t)(w / 4));
-    uint32_t place = snow_space_place((uint32_t)u, (uint32_t)v, (uint32_t)w);
-    _Atomic uint32_t *word = &(obstacle ? matter->obstacle : matter->filled)[octant][place / 32];
-    SNOW_MAP_PUT(*word, SNOW_MAP_GET(*word) | UINT32_C(1) << place % 32);
+    if (map->keeps_matter && is_covered(map, u, v, w))
+        keep_matter(map, (uint32_t)u, (uint32_t)v, (uint32_t)w, obstacle);
 }

@@ -1,11 +1,23 @@
 #include "aggregate/squad.h"
 
 #ifdef SNOW_HAVE_X86_KERNELS
-/* Lanes find tiles by products of 16 bits. */
+/* Lanes find tiles of the plane by products of 16 bits. */
 static bool is_for_lanes(const snow_ground *ground)
 {
-    return ground->exits.lattice != SNOW_AGGREGATE_CUBIC && !ground->careful && ground->source.width == 0 &&
-           ground->plane.box.columns <= INT16_MAX && ground->plane.box.rows <= INT16_MAX;
+    return !ground->careful && ground->source.width == 0 && ground->plane.box.columns <= INT16_MAX &&
+           ground->plane.box.rows <= INT16_MAX;
+}
+
+static void choose_lanes(snow_ground *ground, snow_isa isa)
+{
+    bool space = ground->exits.lattice == SNOW_AGGREGATE_CUBIC;
+    if (isa == SNOW_ISA_AVX2) {
+        ground->walk = space ? snow_squads_walk_space_avx2 : snow_squads_walk_avx2;
+        ground->outdated = space ? snow_squad_outdated_space_avx2 : snow_squad_outdated_avx2;
+    } else if (isa == SNOW_ISA_AVX512) {
+        ground->walk = space ? snow_squads_walk_space_avx512 : snow_squads_walk_avx512;
+        ground->outdated = space ? snow_squad_outdated_space_avx512 : snow_squad_outdated_avx512;
+    }
 }
 #endif
 
@@ -14,14 +26,8 @@ void snow_squads_choose(snow_ground *ground, snow_isa isa)
     ground->walk = snow_squads_walk_in_turn;
     ground->outdated = snow_squad_outdated;
 #ifdef SNOW_HAVE_X86_KERNELS
-    if (is_for_lanes(ground) && isa == SNOW_ISA_AVX2) {
-        ground->walk = snow_squads_walk_avx2;
-        ground->outdated = snow_squad_outdated_avx2;
-    }
-    if (is_for_lanes(ground) && isa == SNOW_ISA_AVX512) {
-        ground->walk = snow_squads_walk_avx512;
-        ground->outdated = snow_squad_outdated_avx512;
-    }
+    if (is_for_lanes(ground))
+        choose_lanes(ground, isa);
 #else
     (void)isa;
 #endif
@@ -33,6 +39,7 @@ void snow_squad_enter(snow_squad *squad, int lane)
     snow_lanes *lanes = &squad->lanes;
     lanes->x[lane] = flight->x;
     lanes->y[lane] = flight->y;
+    lanes->z[lane] = flight->z;
     lanes->drawn[lane] = flight->draws.used;
     lanes->low[lane] = (uint32_t)flight->draws.walker;
     lanes->high[lane] = (uint32_t)(flight->draws.walker >> 32);
@@ -47,7 +54,8 @@ snow_stay snow_squad_leave(const snow_ground *ground, snow_squad *squad, int lan
     const snow_flight *flight = &squad->flight[lane];
     if (ground->walk == snow_squads_walk_in_turn)
         return (snow_stay){{flight->x, flight->y, flight->z}, flight->draws.used, landed};
-    return (snow_stay){{squad->lanes.x[lane], squad->lanes.y[lane], 0}, squad->lanes.drawn[lane], landed};
+    const snow_lanes *lanes = &squad->lanes;
+    return (snow_stay){{lanes->x[lane], lanes->y[lane], lanes->z[lane]}, lanes->drawn[lane], landed};
 }
 
 snow_stay snow_squad_asked(const snow_squad *squad, int lane, uint32_t row)

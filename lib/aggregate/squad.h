@@ -19,15 +19,21 @@ typedef struct snow_row {
     uint32_t drawn[SNOW_LANES];
 } snow_row;
 
+/* Where they were told so: what may have changed is found by tiles, so these are close together. */
+typedef struct snow_tiles {
+    _Alignas(32) int32_t tile[SNOW_LANES]; /* negative: outside the map, where nothing changes */
+} snow_tiles;
+
 /* The third coordinate. */
 typedef struct snow_heights {
-    int32_t z[SNOW_LANES];
+    _Alignas(32) int32_t z[SNOW_LANES];
 } snow_heights;
 
 /* Where walkers are that walk in the lanes of vectors, and their numbers, in halves. */
 typedef struct snow_lanes {
     _Alignas(32) int32_t x[SNOW_LANES];
     int32_t y[SNOW_LANES];
+    int32_t z[SNOW_LANES];
     uint32_t drawn[SNOW_LANES];
     uint32_t low[SNOW_LANES];
     uint32_t high[SNOW_LANES];
@@ -40,6 +46,7 @@ struct snow_squad {
     uint32_t landed;                /* lanes in which somebody has landed */
     uint64_t key;                   /* of all their streams */
     snow_row *rows;
+    snow_tiles *tiles;     /* as many */
     snow_heights *heights; /* as many; NULL in the plane */
     uint32_t room; /* so many rows: a power of two */
     uint32_t next; /* the row that is written next */
@@ -49,6 +56,11 @@ struct snow_squad {
 static inline snow_row *snow_squad_row(const snow_squad *squad, uint32_t row)
 {
     return &squad->rows[row & (squad->room - 1)];
+}
+
+static inline snow_tiles *snow_squad_tiles(const snow_squad *squad, uint32_t row)
+{
+    return &squad->tiles[row & (squad->room - 1)];
 }
 
 static inline snow_heights *snow_squad_heights(const snow_squad *squad, uint32_t row)
@@ -61,10 +73,8 @@ void snow_squads_choose(snow_ground *ground, snow_isa isa);
 void snow_squads_walk_in_turn(const snow_ground *ground, snow_squad *squads, int count);
 void snow_squads_walk_avx2(const snow_ground *ground, snow_squad *squads, int count);
 void snow_squads_walk_avx512(const snow_ground *ground, snow_squad *squads, int count);
-
-/* For lanes, when in some the walker has stood still for a row: those that have landed
-   are marked, others are helped with what takes whole blocks of numbers. */
-void snow_squad_help(const snow_ground *ground, snow_squad *squad, uint32_t still);
+void snow_squads_walk_space_avx2(const snow_ground *ground, snow_squad *squads, int count);
+void snow_squads_walk_space_avx512(const snow_ground *ground, snow_squad *squads, int count);
 
 /* The walker of flight[lane] sets out. */
 void snow_squad_enter(snow_squad *squad, int lane);
@@ -83,8 +93,9 @@ uint32_t snow_squad_outdated_avx2(const snow_ground *ground, const snow_squad *s
                                   uint32_t end, uint64_t since);
 uint32_t snow_squad_outdated_avx512(const snow_ground *ground, const snow_squad *squad, int lane, uint32_t first,
                                     uint32_t end, uint64_t since);
-
-/* One row. */
-bool snow_squad_is_outdated(const snow_ground *ground, const snow_squad *squad, int lane, uint32_t row);
+uint32_t snow_squad_outdated_space_avx2(const snow_ground *ground, const snow_squad *squad, int lane, uint32_t first,
+                                        uint32_t end, uint64_t since);
+uint32_t snow_squad_outdated_space_avx512(const snow_ground *ground, const snow_squad *squad, int lane, uint32_t first,
+                                          uint32_t end, uint64_t since);
 
 #endif

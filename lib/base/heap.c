@@ -76,3 +76,14 @@ void snow_heap_put(snow_heap *heap, void *block)
     heap->used -= header.size;
     heap->release(heap->context, header.raw);
 }
+
+void *snow_heap_move(snow_heap *heap, void *block, size_t kept, size_t count, size_t size)
+{
+    void *moved = snow_heap_get_raw(heap, count, size);
+    if (moved == NULL)
+        return NULL;
+    if (kept > 0)
+        memcpy(moved, block, kept * size);
+    snow_heap_put(heap, block);
+    return moved;
+}

@@ -28,4 +28,8 @@ void *snow_heap_get_raw(snow_heap *heap, size_t count, size_t size);
 
 void snow_heap_put(snow_heap *heap, void *block);
 
+/* A block of another size that begins with the first items of this one, which is
+   given back (NULL: there is none). NULL as above: then the old one stays. */
+void *snow_heap_move(snow_heap *heap, void *block, size_t kept, size_t count, size_t size);
+
 #endif

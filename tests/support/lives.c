@@ -520,6 +520,12 @@ static snow_status aggregate_order_at(snow_grid *grid, test_answer *answer)
     return snow_aggregate_order_at(grid, (snow_site){0, 0, 0}, (int64_t *)(void *)answer);
 }
 
+static snow_status aggregate_obstacles(snow_grid *grid, test_answer *answer)
+{
+    size_t count;
+    return snow_aggregate_obstacles(grid, (snow_site *)(void *)answer, 1024, &count);
+}
+
 static snow_status aggregate_bounds(snow_grid *grid, test_answer *answer)
 {
     snow_point *corners = (snow_point *)(void *)answer;
@@ -606,6 +612,7 @@ const test_act test_acts[] = {
     {"aggregate_clusters", aggregate_clusters_of, false},
     {"aggregate_parents", aggregate_parents, false},
     {"aggregate_order_at", aggregate_order_at, false},
+    {"aggregate_obstacles", aggregate_obstacles, false},
     {"aggregate_bounds", aggregate_bounds, false},
     {"aggregate_growth", aggregate_growth, false},
     {"aggregate_sample", aggregate_sample, false},
