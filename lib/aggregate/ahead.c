@@ -83,9 +83,29 @@ void snow_ahead_pause(snow_ahead *ahead)
         wait_a_little(&looks);
 }
 
+/* Nobody is out any more. */
+static void forget_all(snow_ahead *ahead)
+{
+    for (uint64_t i = 0; i < ahead->window; i++)
+        atomic_store_explicit(&ahead->voyage[i].done, 0, memory_order_relaxed);
+    for (int thread = 0; thread < ahead->threads; thread++) {
+        snow_party *party = &ahead->party[thread];
+        for (int i = 0; i < ahead->squads; i++) {
+            party->squad[i].busy = 0;
+            party->squad[i].key = ahead->key;
+            party->queue[i].oldest = party->queue[i].next;
+        }
+    }
+}
+
+void snow_ahead_call_back(snow_ahead *ahead)
+{
+    forget_all(ahead);
+    atomic_store(&ahead->next, atomic_load(&ahead->settled) + 1); /* that one is landing */
+}
+
 void snow_ahead_resume(snow_ahead *ahead)
 {
-    ahead->epoch++;
     atomic_store(&ahead->paused, false);
 }
 
@@ -112,7 +132,6 @@ static void set_out(snow_ahead *ahead, snow_party *own, int i, int lane, uint64_
     snow_queue *queue = &own->queue[i];
     voyage->walker = walker;
     voyage->settled = atomic_load(&ahead->settled);
-    voyage->epoch = ahead->epoch;
     voyage->squad = squad;
     voyage->lane = lane;
     voyage->first = squad->next;
@@ -123,18 +142,27 @@ static void set_out(snow_ahead *ahead, snow_party *own, int i, int lane, uint64_
     snow_squad_enter(squad, lane);
 }
 
+/* Fills the lanes of a squad that are free. False: too many are out. */
+static bool fill_squad(snow_ahead *ahead, snow_party *own, int i)
+{
+    const uint32_t lanes = (1u << ahead->abreast) - 1;
+    const snow_queue *queue = &own->queue[i];
+    for (uint32_t free = lanes & ~own->squad[i].busy; free != 0; free &= free - 1) {
+        uint64_t walker;
+        if (queue->next - queue->oldest == SNOW_QUEUE || !take(ahead, &walker))
+            return false;
+        set_out(ahead, own, i, __builtin_ctz(free), walker);
+    }
+    return true;
+}
+
 /* True: somebody walks. */
 static bool fill_up(snow_ahead *ahead, snow_party *own)
 {
     uint32_t busy = 0;
-    for (int i = 0; i < ahead->squads; i++) {
-        uint64_t walker;
-        for (int lane = 0; lane < ahead->abreast; lane++)
-            if ((own->squad[i].busy >> lane & 1) == 0 && own->queue[i].next - own->queue[i].oldest < SNOW_QUEUE &&
-                take(ahead, &walker))
-                set_out(ahead, own, i, lane, walker);
+    for (int i = 0; i < ahead->squads && fill_squad(ahead, own, i); i++) {}
+    for (int i = 0; i < ahead->squads; i++)
         busy |= own->squad[i].busy;
-    }
     return busy != 0;
 }
 
@@ -168,9 +196,8 @@ static bool finish_some(const snow_ahead *ahead, snow_party *own, int i)
             if ((squad->busy >> lane & 1) != 0 && own->voyage[i][lane]->walker == oldest)
                 ready |= 1u << lane;
     }
-    for (int lane = 0; lane < SNOW_LANES; lane++)
-        if ((ready >> lane & 1) != 0)
-            finish(ahead, own, i, lane);
+    for (uint32_t left = ready; left != 0; left &= left - 1)
+        finish(ahead, own, i, __builtin_ctz(left));
     return ready != 0;
 }
 
@@ -210,11 +237,6 @@ static void correct(snow_ahead *ahead, snow_voyage *voyage)
 /* Where the walker lands on the cluster as it stands. */
 static snow_site arrive(snow_ahead *ahead, snow_voyage *voyage)
 {
-    if (voyage->epoch != ahead->epoch) {
-        ahead->repeats++;
-        snow_flight_start(ahead->ground, &ahead->flight, ahead->key, voyage->walker);
-        return snow_flight_finish(ahead->ground, &ahead->flight);
-    }
     correct(ahead, voyage);
     if (voyage->stay.landed)
         return voyage->stay.site;
@@ -270,24 +292,9 @@ static void task(void *argument, size_t index)
     snow_floating_leave(&state);
 }
 
-/* Nobody is out. */
-static void call_back(snow_ahead *ahead)
-{
-    for (uint64_t i = 0; i < ahead->window; i++)
-        atomic_store(&ahead->voyage[i].done, 0);
-    for (int thread = 0; thread < ahead->threads; thread++) {
-        snow_party *party = &ahead->party[thread];
-        for (int i = 0; i < ahead->squads; i++) {
-            party->squad[i].busy = 0;
-            party->squad[i].key = ahead->key;
-            party->queue[i].oldest = party->queue[i].next;
-        }
-    }
-}
-
 uint64_t snow_ahead_run(snow_ahead *ahead, snow_parallel_for loop, void *loop_context, uint64_t first, uint64_t count)
 {
-    call_back(ahead);
+    forget_all(ahead);
     atomic_store(&ahead->end, first + count);
     atomic_store(&ahead->next, first);
     atomic_store(&ahead->settled, first);

@@ -8,7 +8,8 @@
 
    Settling changes the map while others read it. They may read a mixture of old
    and new; then the diary does not hold. Only what moves in memory, or moves
-   the source, waits until nobody walks. */
+   the source, waits until nobody walks; when the source has moved, all who are
+   out set out anew. */
 #ifndef SNOW_AGGREGATE_AHEAD_H
 #define SNOW_AGGREGATE_AHEAD_H
 
@@ -22,7 +23,6 @@ typedef struct snow_voyage {
     _Atomic uint64_t done; /* 1 + the walker that this is, when it needs no more turns */
     uint64_t walker;
     uint64_t settled; /* how many had landed when it set out */
-    uint64_t epoch;
     /* Its diary: the rows from `first` to `end` of a lane. */
     const snow_squad *squad;
     int lane;
@@ -67,7 +67,6 @@ typedef struct snow_ahead {
     atomic_flag settling;
     _Atomic uint64_t end; /* no walker from this number on sets out */
     /* What follows is for who settles. */
-    uint64_t epoch; /* changes when the source or the map's box does */
     uint64_t repeats;
     snow_landing land;
     void *context;
@@ -90,6 +89,8 @@ void snow_ahead_extend(snow_ahead *ahead);
 
 /* For who lands a walker: from pause to resume nobody else walks. */
 void snow_ahead_pause(snow_ahead *ahead);
+/* Between them: the source has moved, or the map's box. */
+void snow_ahead_call_back(snow_ahead *ahead);
 void snow_ahead_resume(snow_ahead *ahead);
 
 #endif

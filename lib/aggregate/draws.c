@@ -27,6 +27,7 @@ void snow_draws_start(snow_draws *draws, snow_draws_refill refill, uint64_t key,
 void snow_draws_move(snow_draws *draws, uint32_t used)
 {
     draws->used = used - used % SNOW_DRAWS_AT_ONCE;
-    draws->refill(draws);
+    if (draws->used != used)
+        draws->refill(draws);
     draws->used = used;
 }

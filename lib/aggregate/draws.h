@@ -36,18 +36,11 @@ void snow_draws_start(snow_draws *draws, snow_draws_refill refill, uint64_t key,
 void snow_draws_move(snow_draws *draws, uint32_t used);
 
 /* The number that comes next. */
-static inline uint64_t snow_draws_peek(const snow_draws *draws)
-{
-    return draws->number[draws->used % SNOW_DRAWS_AT_ONCE];
-}
-
 static inline uint64_t snow_draws_next(snow_draws *draws)
 {
-    uint64_t number = snow_draws_peek(draws);
-    draws->used++;
     if (draws->used % SNOW_DRAWS_AT_ONCE == 0)
         draws->refill(draws);
-    return number;
+    return draws->number[draws->used++ % SNOW_DRAWS_AT_ONCE];
 }
 
 /* What is left of a block is not used. */

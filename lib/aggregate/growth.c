@@ -90,6 +90,7 @@ static snow_status fit(snow_growth *growth, snow_heap *heap, int64_t farthest)
         if (status == SNOW_OK)
             growth->ground.source = source;
         snow_squads_choose(&growth->ground, growth->rules.isa);
+        snow_ahead_call_back(&growth->ahead);
         snow_ahead_resume(&growth->ahead);
     }
     if (status == SNOW_OK)
