@@ -4,13 +4,14 @@
 #include "common/options.h"
 #include "common/output.h"
 #include "common/particles.h"
+#include "common/places.h"
 #include "common/progress.h"
 
 #include <errno.h>
 #include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
-#include <string.h>
+#include <stdlib.h>
 
 typedef struct files {
     const char *out;
@@ -30,6 +31,8 @@ typedef struct job {
     number_list cathode;
     number_list hardness;
     number_list walls;
+    const char *start;
+    const char *obstacles;
     files names;
     int32_t size;
     double checkpoint; /* seconds between two saves; 0: only at the end */
@@ -118,6 +121,15 @@ static bool save(const snow_grid *grid, const char *name)
     return saved;
 }
 
+static void show_progress(const snow_grid *grid, const snow_summary *summary, double speed)
+{
+    size_t clusters;
+    if (snow_aggregate_clusters(grid, NULL, 0, &clusters) == SNOW_OK)
+        progress_show("%zu clusters, the largest of %" PRIu64 ", %.0f mergings a second", clusters, summary->frozen, speed);
+    else
+        progress_show("%" PRIu64 " particles, radius %.0f, %.0f a second", summary->frozen, summary->tip_radius, speed);
+}
+
 /* Grows in runs of a tenth of a second: between them it shows how it goes, keeps what there is from time to time, and
    ends when Ctrl-C or --seconds ask for it. */
 static snow_status run(const job *self, snow_grid *grid, snow_summary *summary)
@@ -133,8 +145,7 @@ static snow_status run(const job *self, snow_grid *grid, snow_summary *summary)
         status = snow_run(grid, &stop, summary);
         double now = progress_clock();
         summary->seconds = now - started;
-        progress_show("%llu particles, radius %.0f, %.0f a second", (unsigned long long)summary->frozen,
-                      summary->tip_radius, (double)(summary->steps - steps) / summary->seconds);
+        show_progress(grid, summary, (double)(summary->steps - steps) / summary->seconds);
         if (self->checkpoint > 0 && now - saved >= self->checkpoint) {
             save(grid, self->names.save);
             saved = now;
@@ -179,17 +190,20 @@ static bool write_files(const job *self, const snow_grid *grid, output *opened)
     return written;
 }
 
-/* How clusters that drift have ended: the radii of the last one, if one is left; half a box's diagonal for the tip. */
+/* Clusters that drift: the gyration of the largest one; half the diagonal of the box that holds all of them. */
 static void measure_drifted(const snow_grid *grid, double *gyration, double *radius)
 {
-    snow_aggregate_cluster one = {0, 0};
-    size_t clusters = 0;
+    size_t count = 0;
+    snow_aggregate_clusters(grid, NULL, 0, &count);
+    snow_aggregate_cluster *clusters = malloc(count * sizeof *clusters);
+    snow_aggregate_cluster largest = {0, 0};
     snow_point low;
     snow_point high;
-    snow_aggregate_clusters(grid, NULL, 0, &clusters);
-    if (clusters != 1 || snow_aggregate_clusters(grid, &one, 1, NULL) != SNOW_OK)
-        return;
-    *gyration = one.gyration;
+    if (clusters != NULL && snow_aggregate_clusters(grid, clusters, count, NULL) == SNOW_OK)
+        for (size_t i = 0; i < count; i++)
+            largest = clusters[i].mass > largest.mass ? clusters[i] : largest;
+    free(clusters);
+    *gyration = largest.gyration;
     if (snow_aggregate_bounds(grid, &low, &high) == SNOW_OK)
         *radius = sqrt(pow(high.x - low.x, 2) + pow(high.y - low.y, 2) + pow(high.z - low.z, 2)) / 2;
 }
@@ -235,6 +249,25 @@ static void init(job *self)
     snow_stop_init(&self->stop, sizeof self->stop);
 }
 
+/* The scene, with the seeds and obstacles that files list; returns the exit code. */
+static int create(job *self, snow_grid **grid)
+{
+    place_list seeds = {NULL, 0};
+    place_list obstacles = {NULL, 0};
+    int exit_code = EXIT_WRONG;
+    if (places_read(&seeds, "start", self->start) && places_read(&obstacles, "obstacles", self->obstacles)) {
+        self->params.seeds = seeds.sites;
+        self->params.seed_count = seeds.count;
+        self->params.obstacles = obstacles.sites;
+        self->params.obstacle_count = obstacles.count;
+        snow_status status = snow_aggregate_create(&self->params, &self->options, grid);
+        exit_code = status == SNOW_OK ? EXIT_DONE : complain_status(NULL, status);
+    }
+    places_destroy(&seeds);
+    places_destroy(&obstacles);
+    return exit_code;
+}
+
 #define SCENE_HEADING "The scene"
 
 static bool check(const program *command, const job *self)
@@ -267,6 +300,8 @@ int main(int argc, char **argv)
         OPTION_CHOICE("engine", engine_names, &to->engine, "jumps over empty regions, or plain single steps (auto)"),
         OPTION_UNSIGNED("seed", &to->random_seed, "chooses every random number (0)"),
         OPTION_NUMBER("stick", &to->sticking, "chance that a contact sticks (1)"),
+        OPTION_TEXT("start", "FILE", &self.start, "sites that are filled at the start, as --sites writes them"),
+        OPTION_TEXT("obstacles", "FILE", &self.obstacles, "likewise sites that are neither entered nor filled"),
         OPTION_INTEGER("hits", "COUNT", &to->hits, INT32_MIN, INT32_MAX, "noise reduction: hits that fill a site (1)"),
         OPTION_NUMBER("kill-radius", &to->kill_radius, "drop walkers beyond so many launch radii; biased (0: never)"),
         OPTION_INTEGER("launch-radius", "SITES", &to->launch_radius, INT32_MIN, INT32_MAX, "laboratory: R0 (100)"),
@@ -316,12 +351,7 @@ int main(int argc, char **argv)
         return EXIT_WRONG;
     set_end(&self);
     progress_start();
-    if (self.names.load)
-        exit_code = kept_load(self.names.load, &self.options, &grid);
-    else {
-        snow_status status = snow_aggregate_create(&self.params, &self.options, &grid);
-        exit_code = status == SNOW_OK ? EXIT_DONE : complain_status(NULL, status);
-    }
+    exit_code = self.names.load ? kept_load(self.names.load, &self.options, &grid) : create(&self, &grid);
     if (exit_code == EXIT_DONE)
         exit_code = grow_into_files(&self, grid);
     snow_destroy(grid);

@@ -558,6 +558,26 @@ test_aggregate() {
     run aggregate --particles 100 --seed 5 --save half.snow
     run aggregate --load half.snow --particles 300 --sites continued
     check 'aggregate: saved and continued, the same sites' cmp -s sites continued
+    awk 'BEGIN { for (y = -9; y <= 9; y++) for (x = -9; x <= 9; x++) if (int(sqrt(x * x + y * y)) == 8) print x, y }' >ring
+    run aggregate --start ring --particles 300 --sites grown
+    head -n "$(lines ring)" grown >begun
+    check 'aggregate --start: a ring comes first' cmp -s ring begun
+    check 'aggregate --start: and grows' [ "$(lines grown)" -eq 300 ]
+    run aggregate --obstacles ring --particles 300
+    check 'aggregate --obstacles: a ring shuts the seed in' complained aggregate 2
+    grep -vx '0 -8' ring >gap
+    run aggregate --obstacles gap --particles 300 --sites grown --size 64 --out gap.png
+    check 'aggregate --obstacles: through a gap' printed "$aggregate_line"
+    check 'aggregate --obstacles: a picture' is_png gap.png
+    check 'aggregate --obstacles: none is filled' [ -z "$(sort gap grown | uniq -d)" ]
+    echo '1 2 x' >wrong
+    run aggregate --start wrong
+    check 'aggregate --start: not a site' complained aggregate 2
+    : >wrong
+    run aggregate --start wrong
+    check 'aggregate --start: no site' complained aggregate 2
+    run aggregate --start nowhere
+    check 'aggregate --start: no file' complained aggregate 2
     run aggregate --load half.snow --seed 4
     check 'a growth that is loaded is not described again' complained aggregate 2
     run aggregate --checkpoint 5

@@ -5,6 +5,19 @@
 #include <math.h>
 #include <stdlib.h>
 
+static snow_grid *reloaded(const snow_grid *grid)
+{
+    size_t size = 0;
+    assert_ok(snow_save(grid, NULL, 0, &size));
+    void *bytes = malloc(size);
+    assert_non_null(bytes);
+    assert_ok(snow_save(grid, bytes, size, &size));
+    snow_grid *copy = NULL;
+    assert_ok(snow_load(bytes, size, NULL, &copy));
+    free(bytes);
+    return copy;
+}
+
 static const snow_site steps_of_four[] = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}};
 static const snow_site steps_of_six[] = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {1, -1, 0}, {-1, 1, 0}};
 static const snow_site steps_in_space[] = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
@@ -364,13 +377,42 @@ static void fields_that_are_not_kept_are_refused(void **state)
         bool moves = params.scene == SNOW_AGGREGATE_CLUSTER_CLUSTER;
         bool jumps = params.engine == SNOW_AGGREGATE_ENGINE_AUTO &&
                      (params.scene == SNOW_AGGREGATE_WITTEN_SANDER || params.scene == SNOW_AGGREGATE_LINE);
-        double value;
+        double value, density = -1;
         snow_status frozen = !flat ? SNOW_ERROR_UNSUPPORTED : jumps ? SNOW_ERROR_NOT_RECORDED : SNOW_OK;
         snow_status step = !flat || moves ? SNOW_ERROR_UNSUPPORTED : SNOW_ERROR_NOT_RECORDED;
         assert_status(frozen, snow_cell_value(grid, SNOW_FIELD_FROZEN, 0, 0, &value));
         assert_status(step, snow_cell_value(grid, SNOW_FIELD_FREEZE_STEP, 0, 0, &value));
         assert_status(flat ? SNOW_OK : SNOW_ERROR_UNSUPPORTED, snow_cell_value(grid, SNOW_FIELD_INSIDE, 0, 0, &value));
         assert_status(SNOW_ERROR_UNSUPPORTED, snow_cell_value(grid, SNOW_FIELD_VAPOUR, 0, 0, &value));
+        assert_status(flat ? SNOW_OK : SNOW_ERROR_UNSUPPORTED, snow_density(grid, &density));
+        assert_true(flat ? density >= 0 && density <= 1 : density == -1);
+        snow_destroy(grid);
+    }
+}
+
+static void obstacles_are_those_that_were_given(void **state)
+{
+    (void)state;
+    static const snow_site plane[] = {{3, 0, 0}, {0, -3, 0}, {-3, 0, 0}};
+    static const snow_site space[] = {{3, 0, -2}, {0, -3, 5}, {-3, 0, 0}};
+    for (int lattice = SNOW_AGGREGATE_SQUARE; lattice <= SNOW_AGGREGATE_CUBIC; lattice++) {
+        const snow_site *given = lattice == SNOW_AGGREGATE_CUBIC ? space : plane;
+        snow_aggregate_params params = aggregate_scene(SNOW_AGGREGATE_WITTEN_SANDER);
+        params.lattice = (snow_aggregate_lattice)lattice;
+        params.obstacles = given;
+        params.obstacle_count = COUNT_OF(plane);
+        snow_grid *grid = make_aggregate(&params, NULL);
+        assert_ok(snow_step(grid, 50));
+        snow_grid *copy = reloaded(grid);
+        snow_site got[COUNT_OF(plane)] = {{7, 7, 7}};
+        size_t count = 0;
+        assert_status(SNOW_ERROR_NULL, snow_aggregate_obstacles(copy, NULL, 0, NULL));
+        assert_status(SNOW_ERROR_BUFFER, snow_aggregate_obstacles(copy, got, COUNT_OF(got) - 1, &count));
+        assert_int_equal(COUNT_OF(got), count);
+        assert_int_equal(7, got[0].x);
+        assert_ok(snow_aggregate_obstacles(copy, got, COUNT_OF(got), NULL));
+        assert_memory_equal(given, got, sizeof got);
+        snow_destroy(copy);
         snow_destroy(grid);
     }
 }
@@ -541,6 +583,7 @@ static void nothing_is_asked_of_nothing_or_of_another_model(void **state)
         assert_status(expected, snow_aggregate_points(grid, 0, &low, 1));
         assert_status(expected, snow_aggregate_parents(grid, NULL, 0, &count));
         assert_status(expected, snow_aggregate_order_at(grid, site, &order));
+        assert_status(expected, snow_aggregate_obstacles(grid, &site, 1, &count));
         assert_status(expected, snow_aggregate_bounds(grid, &low, &high));
         assert_status(expected, snow_aggregate_gyration(grid, &number, &radius, 1));
         assert_status(expected, snow_aggregate_mass(grid, &radius, &number, 1));
@@ -581,6 +624,137 @@ static void measures_of_cells_need_the_cells(void **state)
     snow_destroy(grid);
 }
 
+/* What grid.h and measure.h say of all frozen cells, in every scene, against its particles one by one. */
+static void check_census(const snow_grid *grid)
+{
+    uint64_t count = 0;
+    assert_ok(snow_aggregate_particles(grid, &count));
+    snow_site *sites = calloc((size_t)count, sizeof *sites);
+    snow_point *points = calloc((size_t)count, sizeof *points);
+    assert_true(sites != NULL && points != NULL);
+    assert_ok(snow_aggregate_points(grid, 0, points, (size_t)count));
+    bool discs = snow_aggregate_sites(grid, 0, sites, (size_t)count) == SNOW_ERROR_UNSUPPORTED;
+    bool drift = snow_aggregate_clusters(grid, NULL, 0, &(size_t){0}) == SNOW_OK;
+    snow_hexagon held = {INT64_MAX, INT64_MIN, INT64_MAX, INT64_MIN, INT64_MAX, INT64_MIN};
+    double tip = 0;
+    bool flat = true;
+    for (size_t i = 0; i < count; i++) {
+        flat = flat && points[i].z == 0;
+        int64_t q = discs ? (int64_t)floor(points[i].x) : sites[i].x;
+        int64_t r = discs ? (int64_t)floor(points[i].y) : sites[i].y;
+        snow_point at = drift ? (snow_point){sites[i].x, sites[i].y, sites[i].z} : points[i];
+        held.least_q = q < held.least_q ? q : held.least_q;
+        held.greatest_q = q > held.greatest_q ? q : held.greatest_q;
+        held.least_r = r < held.least_r ? r : held.least_r;
+        held.greatest_r = r > held.greatest_r ? r : held.greatest_r;
+        held.least_s = q + r < held.least_s ? q + r : held.least_s;
+        held.greatest_s = q + r > held.greatest_s ? q + r : held.greatest_s;
+        tip = fmax(tip, sqrt(at.x * at.x + at.y * at.y + at.z * at.z));
+    }
+    double radius;
+    snow_hexagon hexagon;
+    assert_ok(snow_tip_radius(grid, &radius));
+    assert_near(tip, radius, 1e-12 * (1 + tip));
+    assert_ok(snow_frozen_hexagon(grid, &hexagon));
+    assert_memory_equal(&held, &hexagon, sizeof held);
+    snow_rect bounds;
+    assert_ok(snow_frozen_bounds(grid, &bounds));
+    assert_int_equal(held.least_q, bounds.q);
+    assert_int_equal(held.least_r, bounds.r);
+    assert_int_equal(held.greatest_q - held.least_q + 1, bounds.width);
+    assert_int_equal(held.greatest_r - held.least_r + 1, bounds.height);
+    uint64_t boxes;
+    if (snow_box_count(grid, 1, &boxes) == SNOW_OK) {
+        uint64_t mass;
+        assert_int_equal(count, boxes);
+        assert_ok(snow_mass_radius(grid, &(double){tip + 1}, 1, &mass));
+        assert_int_equal(count, mass);
+    }
+    double density;
+    if (discs || !flat) {
+        assert_status(SNOW_ERROR_UNSUPPORTED, snow_density(grid, &density));
+    } else {
+        assert_ok(snow_density(grid, &density));
+        assert_true(density > 0 && density <= 1);
+    }
+    free(points);
+    free(sites);
+}
+
+static void every_scene_knows_its_bounds(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < aggregate_kind_count; i++) {
+        snow_aggregate_params params = aggregate_kind(i);
+        params.record_order = params.scene != SNOW_AGGREGATE_OFF_LATTICE;
+        snow_grid *grid = make_aggregate(&params, NULL);
+        for (int round = 0; round < 3; round++) {
+            assert_ok(snow_step(grid, 40));
+            check_census(grid);
+        }
+        snow_destroy(grid);
+    }
+}
+
+/* Each site of the periodic box, those at its sides too. */
+static void check_box_fields(const snow_grid *grid)
+{
+    snow_rect box;
+    assert_ok(snow_domain_bounds(grid, &box));
+    assert_int_equal(box.width, box.height);
+    for (int32_t y = -1; y <= box.height; y++) {
+        for (int32_t x = -1; x <= box.width; x++) {
+            bool inside = x >= 0 && x < box.width && y >= 0 && y < box.height;
+            bool receptive = inside && value_at(grid, SNOW_FIELD_FROZEN, x, y) > 0;
+            for (size_t i = 0; inside && i < COUNT_OF(steps_of_four); i++)
+                receptive |= value_at(grid, SNOW_FIELD_FROZEN, (x + steps_of_four[i].x + box.width) % box.width,
+                                      (y + steps_of_four[i].y + box.height) % box.height) > 0;
+            assert_same_double(receptive, value_at(grid, SNOW_FIELD_RECEPTIVE, x, y));
+        }
+    }
+}
+
+/* Particles that drift are everywhere in their box from the start, also in a saved one. */
+static void drifting_clusters_are_measured_where_they_are(void **state)
+{
+    (void)state;
+    enum { PARTICLES = 400 };
+    snow_aggregate_params params = aggregate_scene(SNOW_AGGREGATE_CLUSTER_CLUSTER);
+    params.particles = PARTICLES;
+    params.density = 0.1; /* a box of 64 x 64, or of 16 x 16 x 16 */
+    for (int lattice = 0; lattice < 2; lattice++) {
+        params.lattice = lattice == 0 ? SNOW_AGGREGATE_SQUARE : SNOW_AGGREGATE_CUBIC;
+        snow_grid *grid = make_aggregate(&params, NULL);
+        check_census(grid);
+        assert_ok(snow_step(grid, 120));
+        check_census(grid);
+        snow_grid *copy = reloaded(grid);
+        check_census(copy);
+        snow_destroy(copy);
+        uint64_t boxes = 7;
+        double value;
+        snow_status plane = lattice == 0 ? SNOW_OK : SNOW_ERROR_UNSUPPORTED;
+        assert_status(plane, snow_box_count(grid, 64, &boxes));
+        assert_int_equal(lattice == 0 ? 1 : 7, boxes);
+        assert_status(plane, snow_mass(grid, NULL, &value));
+        if (lattice == 0) {
+            snow_rect bounds;
+            assert_same_double(PARTICLES, value);
+            check_box_fields(grid);
+            assert_ok(snow_frozen_bounds(grid, &bounds));
+            assert_ok(snow_density(grid, &value));
+            assert_true(value >= (double)PARTICLES / bounds.width / bounds.height && value < 0.15);
+        }
+        snow_stop stop = default_stop();
+        stop.tip_radius = 40; /* of 90: some particle is there by chance */
+        snow_summary summary = run_grid(grid, &stop);
+        assert_int_equal(lattice == 0 ? SNOW_STOP_RADIUS : SNOW_STOP_STILL, summary.reason);
+        assert_ok(snow_tip_radius(grid, &value));
+        assert_same_double(value, summary.tip_radius);
+        snow_destroy(grid);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -592,8 +766,11 @@ int main(void)
         cmocka_unit_test(the_shores_profile_and_fields_are_its_land),
         cmocka_unit_test(fields_are_those_of_the_particles),
         cmocka_unit_test(fields_that_are_not_kept_are_refused),
+        cmocka_unit_test(obstacles_are_those_that_were_given),
         cmocka_unit_test(scenes_say_what_they_have_not),
         cmocka_unit_test(measures_of_cells_need_the_cells),
+        cmocka_unit_test(every_scene_knows_its_bounds),
+        cmocka_unit_test(drifting_clusters_are_measured_where_they_are),
         cmocka_unit_test(walkers_are_counted),
         cmocka_unit_test(clusters_hold_all_particles),
         cmocka_unit_test(sampled_chances_state_their_error),

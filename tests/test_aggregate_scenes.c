@@ -405,60 +405,182 @@ static void both_engines_agree_in_the_ring(void **state)
     }
 }
 
-/* The vessel: sides and lid refuse, the floor takes. */
+/* The vessel: sides and lid refuse, obstacles too, the floor takes. */
 
 enum { VESSEL_WIDTH = 11, VESSEL_HEIGHT = 9 };
 
-static bool sink(world *self, int32_t *x, int32_t *y, bool entry)
+typedef struct vessel {
+    world world; /* first: the rules get a pointer to it */
+    const snow_site *obstacles;
+    size_t obstacle_count;
+    bool entry;
+    bool periodic;
+} vessel;
+
+static bool can_be_entered(const vessel *self, int32_t x, int32_t y)
+{
+    for (size_t i = 0; i < self->obstacle_count; i++)
+        if (self->obstacles[i].x == x && self->obstacles[i].y == y)
+            return false;
+    return x >= 0 && x < VESSEL_WIDTH && y < VESSEL_HEIGHT;
+}
+
+static bool sink(world *around, int32_t *x, int32_t *y)
 {
     static const int32_t steps[4][2] = {{1, 0}, {0, 1}, {-1, 0}, {0, -1}};
-    *x = below(self, VESSEL_WIDTH);
+    const vessel *self = (const vessel *)(const void *)around;
+    *x = below(around, VESSEL_WIDTH);
     *y = VESSEL_HEIGHT - 1;
     for (;;) {
-        if (!entry && touches_four(self, *x, *y) && uniform(self) < self->sticking)
+        bool touches = false;
+        for (int i = 0; i < 4; i++) {
+            int32_t beside = *x + steps[i][0];
+            beside = self->periodic ? (beside + VESSEL_WIDTH) % VESSEL_WIDTH : beside;
+            touches |= *cell(around, beside, *y + steps[i][1]);
+        }
+        if (!self->entry && touches && uniform(around) < around->sticking)
             return true;
-        const int32_t *step = steps[below(self, 4)];
+        const int32_t *step = steps[below(around, 4)];
         int32_t next_x = *x + step[0];
         int32_t next_y = *y + step[1];
-        if (*cell(self, next_x, next_y)) {
-            if (entry && uniform(self) < self->sticking)
+        if (self->periodic)
+            next_x = (next_x + VESSEL_WIDTH) % VESSEL_WIDTH;
+        if (*cell(around, next_x, next_y)) {
+            if (self->entry && uniform(around) < around->sticking)
                 return true;
-        } else if (next_x >= 0 && next_x < VESSEL_WIDTH && next_y < VESSEL_HEIGHT) {
+        } else if (can_be_entered(self, next_x, next_y)) {
             *x = next_x;
             *y = next_y;
         }
     }
 }
 
-static bool sink_arrival(world *self, int32_t *x, int32_t *y)
+static void check_vessel(snow_aggregate_params params, const snow_site *obstacles, size_t obstacle_count)
 {
-    return sink(self, x, y, false);
+    static const snow_site trees[] = {{2, 0, 0}, {2, 1, 0}, {2, 2, 0}, {3, 2, 0}, {8, 0, 0}, {8, 1, 0}, {10, 0, 0}};
+    params.width = VESSEL_WIDTH;
+    params.height = VESSEL_HEIGHT;
+    params.seeds = trees;
+    params.seed_count = COUNT_OF(trees);
+    params.obstacles = obstacles;
+    params.obstacle_count = obstacle_count;
+    static vessel self;
+    self = (vessel){.obstacles = obstacles,
+                    .obstacle_count = obstacle_count,
+                    .entry = params.contact == SNOW_AGGREGATE_ENTRY,
+                    .periodic = params.periodic};
+    self.world.high_x = VESSEL_WIDTH - 1;
+    self.world.high_y = VESSEL_HEIGHT - 1;
+    fill(&self.world, trees, COUNT_OF(trees));
+    for (int32_t x = 0; x < VESSEL_WIDTH; x++)
+        *cell(&self.world, x, -1) = true;
+    compare(&params, &self.world, sink, 20000);
 }
 
-static bool sink_entry(world *self, int32_t *x, int32_t *y)
+static snow_aggregate_params vessel_variant(int variant)
 {
-    return sink(self, x, y, true);
+    snow_aggregate_params params = aggregate_scene(SNOW_AGGREGATE_LINE);
+    params.contact = variant & 1 ? SNOW_AGGREGATE_ENTRY : SNOW_AGGREGATE_ARRIVAL;
+    params.engine = variant & 2 ? SNOW_AGGREGATE_ENGINE_JUMPS : SNOW_AGGREGATE_ENGINE_STEPS;
+    params.sticking = variant & 4 ? 0.3 : 1;
+    return params;
 }
 
 static void walkers_sink_in_the_vessel_as_the_rules_say(void **state)
 {
     (void)state;
-    static const snow_site trees[] = {{2, 0, 0}, {2, 1, 0}, {2, 2, 0}, {3, 2, 0}, {8, 0, 0}, {8, 1, 0}};
-    for (int variant = 0; variant < 8; variant++) {
-        bool entry = variant & 1;
-        snow_aggregate_params params = aggregate_scene(SNOW_AGGREGATE_LINE);
-        params.width = VESSEL_WIDTH;
-        params.height = VESSEL_HEIGHT;
-        params.contact = entry ? SNOW_AGGREGATE_ENTRY : SNOW_AGGREGATE_ARRIVAL;
-        params.engine = variant & 2 ? SNOW_AGGREGATE_ENGINE_JUMPS : SNOW_AGGREGATE_ENGINE_STEPS;
-        params.sticking = variant & 4 ? 0.3 : 1;
-        params.seeds = trees;
-        params.seed_count = COUNT_OF(trees);
-        world self = {.high_x = VESSEL_WIDTH - 1, .high_y = VESSEL_HEIGHT - 1};
-        fill(&self, trees, COUNT_OF(trees));
-        for (int32_t x = 0; x < VESSEL_WIDTH; x++)
-            *cell(&self, x, -1) = true;
-        compare(&params, &self, entry ? sink_entry : sink_arrival, 20000);
+    for (int variant = 0; variant < 8; variant++)
+        check_vessel(vessel_variant(variant), NULL, 0);
+}
+
+static void walkers_sink_round_the_vessel_as_the_rules_say(void **state)
+{
+    (void)state;
+    for (int variant = 0; variant < 2; variant++) {
+        snow_aggregate_params params = vessel_variant(variant);
+        params.periodic = 1;
+        check_vessel(params, NULL, 0);
+    }
+}
+
+/* A roof with a hole, and a pillar. */
+static void walkers_sink_past_obstacles_as_the_rules_say(void **state)
+{
+    (void)state;
+    static const snow_site obstacles[] = {{0, 5, 0}, {1, 5, 0}, {2, 5, 0}, {3, 5, 0}, {4, 5, 0}, {6, 5, 0},
+                                          {7, 5, 0}, {8, 5, 0}, {9, 5, 0}, {6, 1, 0}, {6, 2, 0}};
+    for (int variant = 0; variant < 8; variant++)
+        check_vessel(vessel_variant(variant), obstacles, COUNT_OF(obstacles));
+}
+
+/* Half a ring of obstacles: jumps and single steps are each other's model, on each lattice and by both rules of contact. */
+static void both_engines_agree_about_obstacles(void **state)
+{
+    (void)state;
+    enum { MOST = 4096, REACH = 6 };
+    static const snow_site cluster[] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {-1, 0, 0}, {-1, -1, 0}};
+    for (int variant = 0; variant < 6; variant++) {
+        snow_aggregate_params params = aggregate_scene(SNOW_AGGREGATE_WITTEN_SANDER);
+        params.lattice = (snow_aggregate_lattice)(variant / 2 + 1);
+        params.contact = variant & 1 ? SNOW_AGGREGATE_ENTRY : SNOW_AGGREGATE_ARRIVAL;
+        params.sticking = variant & 1 ? 0.5 : 1;
+        bool space = params.lattice == SNOW_AGGREGATE_CUBIC;
+        int32_t deep = space ? REACH : 0;
+        static snow_aggregate_chance list[MOST];
+        static double hits[2][MOST];
+        static snow_site ring[MOST];
+        size_t count = 0;
+        size_t barred = 0;
+        for (int32_t z = -deep; z <= deep; z++) {
+            for (int32_t y = -REACH; y <= REACH; y++) {
+                for (int32_t x = -REACH; x <= REACH; x++) {
+                    int32_t square = x * x + y * y + z * z;
+                    list[count++].site = (snow_site){x, y, z};
+                    if (square >= 16 && square < 25 && x + y >= -1)
+                        ring[barred++] = (snow_site){x, y, z};
+                }
+            }
+        }
+        params.seeds = cluster;
+        params.seed_count = COUNT_OF(cluster);
+        params.obstacles = ring;
+        params.obstacle_count = barred;
+        for (int steps = 0; steps < 2; steps++) {
+            params.engine = steps ? SNOW_AGGREGATE_ENGINE_STEPS : SNOW_AGGREGATE_ENGINE_JUMPS;
+            snow_grid *grid = make_aggregate(&params, NULL);
+            count_hits(grid, space ? 400 : 4000, 41 + (uint64_t)steps, list, count, hits[steps]);
+            snow_destroy(grid);
+        }
+        assert_alike(hits[0], hits[1], count);
+    }
+}
+
+/* Noise reduction: round a single site the four chances are the same, and the m-th hit of any one ends the wait. With
+   m = 2 that is the 2nd, 3rd, 4th, 5th walker with chances 1/4, 3/8, 9/32, 3/32. */
+static void the_second_hit_fills_a_site(void **state)
+{
+    (void)state;
+    enum { GRIDS = 600, MOST_WALKERS = 5 };
+    static const double chance[MOST_WALKERS + 1] = {0, 0, 1.0 / 4, 3.0 / 8, 9.0 / 32, 3.0 / 32};
+    for (int engine = SNOW_AGGREGATE_ENGINE_JUMPS; engine <= SNOW_AGGREGATE_ENGINE_STEPS; engine++) {
+        double expected[MOST_WALKERS + 1];
+        double got[MOST_WALKERS + 1] = {0};
+        for (int i = 0; i <= MOST_WALKERS; i++)
+            expected[i] = GRIDS * chance[i];
+        snow_aggregate_params params = aggregate_scene(SNOW_AGGREGATE_WITTEN_SANDER);
+        params.engine = (snow_aggregate_engine)engine;
+        params.hits = 2;
+        for (uint64_t i = 0; i < GRIDS; i++) {
+            params.random_seed = i;
+            snow_grid *grid = make_aggregate(&params, NULL);
+            uint64_t walkers;
+            assert_ok(snow_step(grid, 1));
+            assert_ok(snow_aggregate_walkers(grid, &walkers));
+            assert_true(walkers <= MOST_WALKERS);
+            got[walkers]++;
+            snow_destroy(grid);
+        }
+        assert_counts(expected, got, MOST_WALKERS + 1);
     }
 }
 
@@ -818,6 +940,10 @@ int main(void)
         cmocka_unit_test(the_sheets_walkers_wander_as_the_rules_say),
         cmocka_unit_test(both_engines_agree_in_the_ring),
         cmocka_unit_test(walkers_sink_in_the_vessel_as_the_rules_say),
+        cmocka_unit_test(walkers_sink_round_the_vessel_as_the_rules_say),
+        cmocka_unit_test(walkers_sink_past_obstacles_as_the_rules_say),
+        cmocka_unit_test(both_engines_agree_about_obstacles),
+        cmocka_unit_test(the_second_hit_fills_a_site),
         cmocka_unit_test(both_engines_agree_in_every_vessel),
         cmocka_unit_test(waves_wear_the_shore_as_the_rules_say),
         cmocka_unit_test(hardness_is_uniform_in_its_range),

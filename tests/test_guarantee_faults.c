@@ -256,13 +256,15 @@ static void a_run_may_run_out_of_time(void **state)
         assert_int_equal(SNOW_STOP_STEPS, run_grid(whole, &stop).reason);
         stop.seconds = 1e-300;
         snow_summary summary = {.reason = SNOW_STOP_TIME};
-        for (int slices = 0; summary.reason == SNOW_STOP_TIME; slices++) {
+        int slices = 0;
+        for (; summary.reason == SNOW_STOP_TIME; slices++) {
             assert_true(slices <= STEPS);
             int64_t before = steps_of(grid);
             summary = run_grid(grid, &stop);
             assert_true(summary.steps > before);
         }
         assert_int_equal(SNOW_STOP_STEPS, summary.reason);
+        assert_true(slices > 1);
         assert_true(digest_of(whole) == digest_of(grid));
         snow_destroy(grid);
         snow_destroy(whole);

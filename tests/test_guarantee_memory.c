@@ -1,8 +1,10 @@
 /* Every public call of every model, with its n-th allocation failing, for all n: nothing leaks, nobody's data are
    touched, and the grid is as it was, or between two steps, and goes on to the same end. */
+#include "support/aggregates.h"
 #include "support/allocator.h"
 #include "support/grids.h"
 #include "support/lives.h"
+#include "support/packard.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -254,6 +256,77 @@ static void memory_limits_are_kept(void **state)
     }
 }
 
+/* Two particles with much air between them: a few bytes that stand for a large map. */
+static saved_life save_far_apart(void)
+{
+    static const snow_site seeds[] = {{0, 0, 0}, {900, 0, 0}};
+    snow_aggregate_params params = aggregate_scene(SNOW_AGGREGATE_WITTEN_SANDER);
+    params.lattice = SNOW_AGGREGATE_CUBIC;
+    params.seeds = seeds;
+    params.seed_count = COUNT_OF(seeds);
+    snow_grid *grid = make_aggregate(&params, NULL);
+    saved_life saved = save_life(grid);
+    snow_destroy(grid);
+    return saved;
+}
+
+/* Data that are sound may need more than their size: then the limit is kept. So it is by each of the things that stand
+   beside each other until the grid is made: the grid, a cluster's sites, a reader's text. */
+static void keep_to_limits(making *self, uint64_t things)
+{
+    test_allocator allocator = {0};
+    snow_options options = allocator_options(&allocator);
+    snow_grid *grid = NULL;
+    assert_ok(self->make(self, &options, &grid));
+    snow_destroy(grid);
+    uint64_t needed = allocator.peak_bytes;
+    for (uint64_t limit = 1; limit < needed; limit += 1 + needed / 11) {
+        allocator = (test_allocator){0};
+        options.memory_limit = limit;
+        grid = untouched;
+        snow_status status = self->make(self, &options, &grid);
+        assert_true(allocator.peak_bytes <= things * limit);
+        if (status == SNOW_OK) {
+            assert_true(allocator.live_bytes <= limit);
+            snow_destroy(grid);
+        } else {
+            assert_status(SNOW_ERROR_MEMORY_LIMIT, status);
+            assert_ptr_equal(untouched, grid);
+        }
+        assert_int_equal(0, allocator.live_blocks);
+    }
+}
+
+static void load_within_limits(const saved_life *saved, bool has_sites)
+{
+    making all = {.saved = *saved, .make = make_loaded};
+    keep_to_limits(&all, has_sites ? 2 : 1);
+    all.make = make_read;
+    keep_to_limits(&all, has_sites ? 3 : 2);
+}
+
+static void loads_keep_to_the_limit(void **state)
+{
+    (void)state;
+    saved_life far_apart = save_far_apart();
+    assert_true(far_apart.size < 500);
+    load_within_limits(&far_apart, true);
+    free_life(&far_apart);
+    for (size_t i = 0; i < test_life_count; i++) {
+        snow_grid *grid = start_life(&test_lives[i], false, NULL);
+        assert_ok(snow_step(grid, 30));
+        saved_life saved = save_life(grid);
+        snow_model model;
+        assert_ok(snow_model_of(grid, &model));
+        snow_destroy(grid);
+        load_within_limits(&saved, model == SNOW_MODEL_AGGREGATE);
+        free_life(&saved);
+    }
+    static unsigned char text[] = "x = 3, y = 1, rule = B1/S0123456H\n3o!";
+    making pattern = {.make = make_read_pattern, .saved = {text, sizeof text - 1, 0}};
+    keep_to_limits(&pattern, 2);
+}
+
 /* Whatever the head of a saved grid is made to say. */
 static void hostile_data_cost_little(void **state)
 {
@@ -280,56 +353,173 @@ static void hostile_data_cost_little(void **state)
     }
 }
 
-/* Scenes whose sizes have products beyond 32 and 64 bits: an answer at once, and no memory. */
+/* Sides whose products are beyond 32 and 64 bits; limits that are met before them, and behind them. */
+static const int32_t sides[] = {1, 1 << 10, 1 << 16, 1 << 20, 1 << 21, INT32_MAX};
+static const uint64_t limits[] = {1 << 16, 1 << 24};
+
+/* An answer at once, and no more memory than may be. */
+static void assert_answer(snow_status status, snow_grid *grid, const snow_options *options)
+{
+    const test_allocator *allocator = options->allocator_context;
+    assert_true(allocator->peak_bytes <= options->memory_limit);
+    if (status == SNOW_OK)
+        snow_destroy(grid);
+    else
+        assert_ptr_equal(untouched, grid);
+    assert_int_equal(0, allocator->live_blocks);
+}
+
+static void grow_rectangle(int32_t width, int32_t height, const snow_options *options)
+{
+    snow_reiter_params params = rectangle_scene(0.4, 0.01, 1, width, height);
+    params.record_freeze_steps = 1;
+    for (int engine = SNOW_REITER_ENGINE_AUTO; engine <= SNOW_REITER_ENGINE_QUAD; engine++) {
+        params.engine = (snow_reiter_engine)engine;
+        snow_grid *grid = untouched;
+        snow_status status = snow_reiter_create(&params, options, &grid);
+        assert_answer(status, grid, options);
+    }
+}
+
+static void grow_torus(int32_t width, int32_t height, const snow_options *options)
+{
+    static const snow_packard_domain domains[] = {SNOW_PACKARD_TORUS, SNOW_PACKARD_RECTANGLE, SNOW_PACKARD_RHOMBUS};
+    snow_packard_params params = packard_scene("0100000");
+    params.width = width;
+    params.height = height;
+    for (size_t i = 0; i < COUNT_OF(domains); i++) {
+        for (int engine = SNOW_PACKARD_ENGINE_AUTO; engine <= SNOW_PACKARD_ENGINE_REFERENCE; engine++) {
+            params.domain = domains[i];
+            params.engine = (snow_packard_engine)engine;
+            params.record_freeze_steps = engine == SNOW_PACKARD_ENGINE_REFERENCE;
+            snow_grid *grid = untouched;
+            snow_status status = snow_packard_create(&params, options, &grid);
+            assert_answer(status, grid, options);
+        }
+    }
+}
+
+static void grow_box(int32_t width, int32_t height, const snow_options *options)
+{
+    static const size_t kinds[] = {10 /* line in space */, 11, 12, 13, 15};
+    for (size_t i = 0; i < COUNT_OF(kinds); i++) {
+        snow_aggregate_params params = aggregate_kind(kinds[i]);
+        params.width = width;
+        params.depth = width < 1024 ? width : 1024;
+        params.height = height;
+        params.wall_right = params.wall_right_top = width - 1;
+        params.particles = (uint64_t)width * (uint64_t)height;
+        params.density = 1e-6;
+        snow_grid *grid = untouched;
+        snow_status status = snow_aggregate_create(&params, options, &grid);
+        assert_answer(status, grid, options);
+    }
+}
+
 static void products_do_not_overflow(void **state)
 {
     (void)state;
-    static const int32_t sides[] = {1, 1 << 10, 1 << 20, (1 << 21) - 1, 1 << 21, INT32_MAX};
-    for (size_t i = 0; i < COUNT_OF(sides); i++) {
-        for (size_t k = 0; k < COUNT_OF(sides); k++) {
-            test_allocator allocator = {0};
-            snow_options options = allocator_options(&allocator);
-            options.memory_limit = 1 << 16;
-            snow_grid *grid = untouched;
-            snow_reiter_params params = rectangle_scene(0.4, 0.01, 1, sides[i], sides[k]);
-            for (int engine = SNOW_REITER_ENGINE_AUTO; engine <= SNOW_REITER_ENGINE_QUAD; engine++) {
-                params.engine = (snow_reiter_engine)engine;
-                params.record_freeze_steps = 1;
-                snow_status status = snow_reiter_create(&params, &options, &grid);
-                assert_true(allocator.peak_bytes <= options.memory_limit);
-                if (status == SNOW_OK) {
-                    snow_destroy(grid);
-                    grid = untouched;
-                }
-                assert_ptr_equal(untouched, grid);
-            }
-        }
-    }
-    for (size_t i = 0; i < COUNT_OF(sides); i++) {
+    for (size_t i = 0; i < COUNT_OF(sides) * COUNT_OF(sides) * COUNT_OF(limits); i++) {
+        int32_t width = sides[i % COUNT_OF(sides)], height = sides[i / COUNT_OF(sides) % COUNT_OF(sides)];
         test_allocator allocator = {0};
         snow_options options = allocator_options(&allocator);
-        options.memory_limit = 1 << 16;
-        snow_packard_params params;
-        snow_packard_params_init(&params, sizeof params);
-        params.domain = SNOW_PACKARD_TORUS;
-        params.engine = SNOW_PACKARD_ENGINE_REFERENCE;
-        params.width = params.height = sides[i];
-        snow_grid *grid = untouched;
-        snow_status status = snow_packard_create(&params, &options, &grid);
-        assert_true((status == SNOW_OK) == (sides[i] == 1));
-        if (status == SNOW_OK)
-            snow_destroy(grid);
-        snow_cell origin = {0, 0};
-        params.seeds = &origin;
-        params.seed_count = SIZE_MAX / sizeof(snow_cell) + 2; /* bytes that wrap round to a few */
-        snow_reiter_params reiter = disc_scene(0.4, 0.01, 1, 5);
-        reiter.seeds = &origin;
-        reiter.seed_count = params.seed_count;
-        grid = untouched;
-        assert_status(SNOW_ERROR_TOO_LARGE, snow_reiter_create(&reiter, &options, &grid));
-        assert_ptr_equal(untouched, grid);
-        assert_int_equal(0, allocator.live_blocks);
+        options.memory_limit = limits[i / COUNT_OF(sides) / COUNT_OF(sides)];
+        grow_rectangle(width, height, &options);
+        grow_torus(width, height, &options);
+        grow_box(width, height, &options);
     }
+}
+
+/* Lists with more bytes than there can be, which wrap round to a few. */
+static void counts_do_not_overflow(void **state)
+{
+    (void)state;
+    static const snow_cell origin = {0, 0};
+    static const snow_site site = {0, 0, 0};
+    snow_reiter_params reiter = disc_scene(0.4, 0.01, 1, 5);
+    reiter.seeds = &origin;
+    reiter.seed_count = SIZE_MAX / sizeof origin + 2;
+    snow_aggregate_params aggregate = aggregate_scene(SNOW_AGGREGATE_WITTEN_SANDER);
+    aggregate.seeds = &site;
+    aggregate.seed_count = SIZE_MAX / sizeof site + 2;
+    snow_grid *grid = untouched;
+    assert_status(SNOW_ERROR_TOO_LARGE, snow_reiter_create(&reiter, NULL, &grid));
+    assert_status(SNOW_ERROR_AGGREGATE_PARTICLES, snow_aggregate_create(&aggregate, NULL, &grid));
+    aggregate.seed_count = 1;
+    aggregate.obstacles = &site;
+    aggregate.obstacle_count = SIZE_MAX / sizeof site + 2;
+    assert_status(SNOW_ERROR_AGGREGATE_PARTICLES, snow_aggregate_create(&aggregate, NULL, &grid));
+    assert_ptr_equal(untouched, grid);
+}
+
+/* Seeds so far out that the sites between them are more than a size_t can count on some machines. */
+static void distances_do_not_overflow(void **state)
+{
+    (void)state;
+    static const snow_aggregate_lattice lattices[] = {SNOW_AGGREGATE_SQUARE, SNOW_AGGREGATE_HEXAGONAL,
+                                                      SNOW_AGGREGATE_CUBIC};
+    for (size_t i = 0; i < COUNT_OF(lattices); i++) {
+        for (int32_t distance = 1 << 14; distance <= 1 << 26; distance += distance / 2) {
+            test_allocator allocator = {0};
+            snow_options options = allocator_options(&allocator);
+            options.memory_limit = 64 << 20;
+            snow_aggregate_params params = aggregate_scene(SNOW_AGGREGATE_WITTEN_SANDER);
+            params.lattice = lattices[i];
+            const snow_site seeds[] = {{0, 0, 0}, {distance, 0, 0}};
+            params.seeds = seeds;
+            params.seed_count = COUNT_OF(seeds);
+            snow_grid *grid = untouched;
+            snow_status status = snow_aggregate_create(&params, &options, &grid);
+            assert_true(allocator.peak_bytes <= options.memory_limit);
+            if (status == SNOW_OK) {
+                assert_ok(snow_step(grid, 1));
+                snow_destroy(grid);
+            } else {
+                assert_true(status == SNOW_ERROR_MEMORY_LIMIT || status == SNOW_ERROR_TOO_LARGE ||
+                            status == SNOW_ERROR_AGGREGATE_SEED);
+                assert_ptr_equal(untouched, grid);
+            }
+            assert_int_equal(0, allocator.live_blocks);
+        }
+    }
+}
+
+/* Extents whose product is a small number in 32 or 64 bits: the array is too small for them, and nothing is written. */
+static void answers_do_not_overflow(void **state)
+{
+    (void)state;
+    snow_packard_params params = packard_scene("0100000");
+    snow_grid *grid = NULL;
+    assert_ok(snow_packard_create(&params, NULL, &grid));
+    uint64_t words[4] = {7, 7, 7, 7};
+    const int64_t widths[] = {INT64_C(1) << 32, INT64_C(1) << 38, (INT64_C(1) << 38) + 64, INT64_C(1) << 60};
+    const int64_t heights[] = {1, INT64_C(1) << 26, INT64_C(1) << 32, INT64_C(1) << 58, INT64_C(1) << 61};
+    for (size_t i = 0; i < COUNT_OF(widths); i++)
+        for (size_t k = 0; k < COUNT_OF(heights); k++)
+            assert_status(SNOW_ERROR_BUFFER,
+                          snow_packard_copy_bits(grid, 0, 0, widths[i], heights[k], words, COUNT_OF(words)));
+    const int32_t extents[] = {1 << 16, 1 << 30, INT32_MAX};
+    double values[4] = {7, 7, 7, 7};
+    for (size_t i = 0; i < COUNT_OF(extents); i++) {
+        for (size_t k = 0; k < COUNT_OF(extents); k++) {
+            const snow_rect rect = {0, 0, extents[i], extents[k]};
+            snow_status status = snow_field_copy(grid, SNOW_FIELD_FROZEN, &rect, values, COUNT_OF(values), NULL);
+            assert_true(status == SNOW_ERROR_BUFFER || status == SNOW_ERROR_TOO_LARGE ||
+                        status == SNOW_ERROR_RECTANGLE);
+        }
+    }
+    snow_view view;
+    snow_view_init(&view, sizeof view);
+    view.width = view.height = 65535;
+    view.pixel = SNOW_PIXEL_RGBA;
+    size_t size = 0;
+    snow_status status = snow_render(grid, &view, values, sizeof values, &size);
+    assert_true(status == (SIZE_MAX > UINT32_MAX ? SNOW_ERROR_BUFFER : SNOW_ERROR_RANGE));
+    for (size_t i = 0; i < COUNT_OF(words); i++) {
+        assert_int_equal(7, words[i]);
+        assert_same_double(7, values[i]);
+    }
+    snow_destroy(grid);
 }
 
 int main(void)
@@ -338,8 +528,12 @@ int main(void)
         cmocka_unit_test(every_call_survives_any_failure),
         cmocka_unit_test(making_survives_any_failure),
         cmocka_unit_test(memory_limits_are_kept),
+        cmocka_unit_test(loads_keep_to_the_limit),
         cmocka_unit_test(hostile_data_cost_little),
         cmocka_unit_test(products_do_not_overflow),
+        cmocka_unit_test(counts_do_not_overflow),
+        cmocka_unit_test(distances_do_not_overflow),
+        cmocka_unit_test(answers_do_not_overflow),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,22 +1,8 @@
-/* Aggregation, at length: a million walks against the exact chances, radii of many clusters, dimensions. */
+/* Aggregates, many of them: their radii of gyration against those of the reference, and their dimensions. */
 #include "support/aggregates.h"
 
 #include <math.h>
 #include <stdlib.h>
-
-static void a_million_walks_end_as_they_should(void **state)
-{
-    (void)state;
-    check_known_clusters(SNOW_AGGREGATE_ENGINE_JUMPS, 1000000, 200000);
-    check_grown_cluster(SNOW_AGGREGATE_ENGINE_JUMPS, 1000000, 200000);
-}
-
-static void many_single_steps_end_as_they_should(void **state)
-{
-    (void)state;
-    check_known_clusters(SNOW_AGGREGATE_ENGINE_STEPS, 30000, 2000);
-    check_grown_cluster(SNOW_AGGREGATE_ENGINE_STEPS, 10000, 2000);
-}
 
 enum { MOST_MASSES = 16 };
 
@@ -61,6 +47,13 @@ static snow_aggregate_params growth(snow_aggregate_lattice lattice, snow_aggrega
     return params;
 }
 
+/* Fails where a mean differs from the known one by more than four standard errors of the difference. */
+static void assert_radii(const curve *measured, const double *known, const double *error)
+{
+    for (size_t k = 0; k < measured->masses; k++)
+        assert_near(known[k], measured->mean[k], 4 * hypot(measured->error[k], error[k]));
+}
+
 /* Means of an independent single-step program with exact return, and their errors. */
 static void radii_of_gyration_are_those_of_the_reference(void **state)
 {
@@ -80,16 +73,16 @@ static void radii_of_gyration_are_those_of_the_reference(void **state)
          {0.013, 0.018, 0.021, 0.026, 0.031, 0.042, 0.053}},
         {SNOW_AGGREGATE_SQUARE, SNOW_AGGREGATE_ARRIVAL, 0.5,
          {1.699, 2.584, 4.436, 6.624, 9.853, 16.699, 24.862},
-         {0.014, 0.019, 0.027, 0.035, 0.043, 0.056, 0.073}},
+         {0.014, 0.019, 0.027, 0.035, 0.043, 0.057, 0.073}},
         {SNOW_AGGREGATE_SQUARE, SNOW_AGGREGATE_ARRIVAL, 0.01,
          {1.547, 2.221, 3.475, 4.821, 6.749, 10.583, 14.932},
          {0.017, 0.020, 0.021, 0.020, 0.027, 0.026, 0.027}},
         {SNOW_AGGREGATE_HEXAGONAL, SNOW_AGGREGATE_ARRIVAL, 1,
-         {1.809, 2.815, 4.900, 7.357, 11.027, 18.870, 28.334},
+         {1.809, 2.814, 4.900, 7.357, 11.027, 18.870, 28.334},
          {0.015, 0.021, 0.030, 0.034, 0.042, 0.055, 0.066}},
         {SNOW_AGGREGATE_HEXAGONAL, SNOW_AGGREGATE_ENTRY, 1,
          {1.541, 2.281, 3.776, 5.544, 8.203, 13.804, 20.466},
-         {0.012, 0.016, 0.023, 0.028, 0.036, 0.045, 0.056}},
+         {0.012, 0.016, 0.023, 0.028, 0.034, 0.045, 0.056}},
         {SNOW_AGGREGATE_CUBIC, SNOW_AGGREGATE_ARRIVAL, 1,
          {1.455, 2.057, 3.095, 4.140, 5.490, 7.945, 10.498},
          {0.020, 0.023, 0.026, 0.029, 0.032, 0.035, 0.041}},
@@ -98,10 +91,7 @@ static void radii_of_gyration_are_those_of_the_reference(void **state)
         snow_aggregate_params params = growth(rows[i].lattice, rows[i].contact, rows[i].sticking);
         curve measured = {7, {10, 20, 50, 100, 200, 500, 1000}, {0}, {0}};
         measure(&measured, &params, 100);
-        for (size_t k = 0; k < measured.masses; k++) {
-            double error = sqrt(pow(measured.error[k], 2) + pow(rows[i].error[k], 2));
-            assert_near(rows[i].radius[k], measured.mean[k], 4 * error);
-        }
+        assert_radii(&measured, rows[i].radius, rows[i].error);
     }
 }
 
@@ -121,15 +111,17 @@ static double dimension(const curve *measured, size_t first, size_t end)
     return (n * xy - x * y) / (n * xx - x * x);
 }
 
+/* Between 200 and 50,000 particles, where the arms along the axes do not show yet; the radii are means of 200 clusters. */
 static void square_aggregates_have_their_dimension(void **state)
 {
     (void)state;
+    static const double known[] = {10.676, 18.249, 27.345, 40.94, 69.96, 104.89, 270.92};
+    static const double error[] = {0.010, 0.014, 0.018, 0.10, 0.13, 0.18, 0.43};
     snow_aggregate_params params = growth(SNOW_AGGREGATE_SQUARE, SNOW_AGGREGATE_ARRIVAL, 1);
-    curve measured = {8, {200, 500, 1000, 2000, 5000, 10000, 20000, 50000}, {0}, {0}};
-    measure(&measured, &params, 40);
-    assert_near(1.71, dimension(&measured, 0, 8), 0.03);
-    assert_near(104.89, measured.mean[5], 4 * measured.error[5] + 0.8);
-    assert_near(270.92, measured.mean[7], 4 * measured.error[7] + 1.8);
+    curve measured = {7, {200, 500, 1000, 2000, 5000, 10000, 50000}, {0}, {0}};
+    measure(&measured, &params, 60);
+    assert_radii(&measured, known, error);
+    assert_near(1.71, dimension(&measured, 0, measured.masses), 0.03);
 }
 
 static void rare_sticking_raises_the_dimension(void **state)
@@ -147,7 +139,8 @@ static void rare_sticking_raises_the_dimension(void **state)
     }
 }
 
-/* All clusters that a box has seen, one point each, by the slope of ln mass against ln Rg. */
+/* All clusters that a box has seen, one point each. At a mass the radius scatters, so that the slope of ln Rg against ln
+   mass is right, and the one of ln mass against ln Rg too small. */
 static void clusters_of_clusters_have_their_dimension(void **state)
 {
     (void)state;
@@ -158,7 +151,7 @@ static void clusters_of_clusters_have_their_dimension(void **state)
     for (uint64_t seed = 0; seed < BOXES; seed++) {
         snow_aggregate_params params = aggregate_scene(SNOW_AGGREGATE_CLUSTER_CLUSTER);
         params.particles = 10000;
-        params.density = 0.02;
+        params.density = 0.01;
         params.random_seed = seed;
         snow_grid *grid = make_aggregate(&params, NULL);
         for (;;) {
@@ -169,13 +162,13 @@ static void clusters_of_clusters_have_their_dimension(void **state)
             for (size_t i = 0; i < count; i++) {
                 if (list[i].mass < 30)
                     continue;
-                double radius = log(list[i].gyration);
                 double mass = log((double)list[i].mass);
+                double radius = log(list[i].gyration);
                 n++;
-                x += radius;
-                y += mass;
-                xx += radius * radius;
-                xy += radius * mass;
+                x += mass;
+                y += radius;
+                xx += mass * mass;
+                xy += mass * radius;
             }
             assert_ok(snow_step(grid, (int64_t)count / 3));
         }
@@ -183,14 +176,12 @@ static void clusters_of_clusters_have_their_dimension(void **state)
     }
     free(list);
     assert_true(n > 200);
-    assert_near(1.44, (n * xy - x * y) / (n * xx - x * x), 0.07);
+    assert_near(1.44, (n * xx - x * x) / (n * xy - x * y), 0.07);
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_million_walks_end_as_they_should),
-        cmocka_unit_test(many_single_steps_end_as_they_should),
         cmocka_unit_test(radii_of_gyration_are_those_of_the_reference),
         cmocka_unit_test(square_aggregates_have_their_dimension),
         cmocka_unit_test(rare_sticking_raises_the_dimension),

@@ -101,11 +101,11 @@ static void paint_cells(dots *image, const snow_grid *grid, const snow_aggregate
             if (inside == 0)
                 dots_paint(image, x, y, 1, 1, wall);
             else if (shore && value > 0)
-                dots_paint(image, x, y, 1, 1, value > params->hardness_greatest / 2.0 ? rock : land);
+                dots_paint(image, x, y, 1, 1, dots_dimmed(land, 1 - 0.3 * value / params->hardness_greatest));
         }
     }
     if (shore)
-        dots_paint(image, params->width / 2.0, -1, params->width, 1, rock);
+        dots_paint(image, (params->width - 1) / 2.0, -1, params->width, 1, rock);
 }
 
 static void paint_floor(dots *image, const snow_aggregate_params *params)
@@ -116,6 +116,23 @@ static void paint_floor(dots *image, const snow_aggregate_params *params)
         dots_paint(image, params->width / 2.0, -1, params->width + 1, 1, wall);
     if (params->scene == SNOW_AGGREGATE_ELECTROLYSIS && first <= last)
         dots_paint(image, (first + last) / 2, -1, last - first + 1, 1, wall);
+}
+
+static bool paint_obstacles(dots *image, const snow_grid *grid, const snow_aggregate_params *params)
+{
+    double lean = params->lattice == SNOW_AGGREGATE_HEXAGONAL ? 0.5 : 0;
+    double row = lean > 0 ? ROW_DISTANCE : 1;
+    size_t count = 0;
+    snow_aggregate_obstacles(grid, NULL, 0, &count);
+    snow_site *sites = malloc((count + 1) * sizeof *sites);
+    if (sites == NULL || snow_aggregate_obstacles(grid, sites, count, NULL) != SNOW_OK) {
+        complain("no memory for %zu obstacles", count);
+        return false;
+    }
+    for (size_t i = 0; i < count; i++)
+        dots_paint(image, sites[i].x + lean * sites[i].y, row * sites[i].y, 1, row, wall);
+    free(sites);
+    return true;
 }
 
 static void paint_plane(const particles *self, dots *image, const snow_aggregate_params *params)
@@ -190,7 +207,10 @@ static bool draw_plane(const particles *self, const snow_grid *grid, const snow_
     paint_cells(image, grid, params);
     paint_floor(image, params);
     paint_plane(self, image, params);
-    return true;
+    bool painted = paint_obstacles(image, grid, params);
+    if (!painted)
+        dots_destroy(image);
+    return painted;
 }
 
 bool particles_draw(const particles *self, const snow_grid *grid, int32_t size, output *file)

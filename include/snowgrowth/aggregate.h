@@ -185,7 +185,8 @@ SNOW_API const char *snow_aggregate_preset_source(size_t index);
  * its time. In the shore scene a hit wears with chance p; clusters that a move
  * brings together, or that stop it, merge with chance p; a disc that does not
  * stick tries to step off by one diameter in a random direction, and stays for
- * another trial where it would overlap.
+ * another trial where it would overlap. A walker makes about 1/p trials, and
+ * nothing interrupts it before it has ended.
  *
  * Fields that can be read in the plane, but not off the lattice:
  * ::SNOW_FIELD_FROZEN (1 where a site is filled; in the shore scene where a cell
@@ -195,7 +196,10 @@ SNOW_API const char *snow_aggregate_preset_source(size_t index);
  * site was filled, 0 for seeds). The last needs record_order; with
  * ::SNOW_AGGREGATE_ENGINE_JUMPS all need it but inside. None can be set. The
  * mass follows from them; symmetry defect and pictures (render.h) are for the
- * hexagonal lattice.
+ * hexagonal lattice. Tip radius and bounds are those of all particles; bounds
+ * in space of their x and y, off the lattice of the squares that hold their
+ * centres. In the cluster–cluster scene snow_frozen() is the mass of the largest
+ * cluster.
  *
  * Memory: 8 bytes a particle, and for the walk about 4 more with
  * ::SNOW_AGGREGATE_ENGINE_JUMPS, else a byte for each site of the box about the
@@ -224,6 +228,10 @@ SNOW_API snow_status snow_aggregate_create(const snow_aggregate_params *params, 
 
 /**
  * @brief Reads the scene of a grid: as it was given, without the lists of seeds and obstacles.
+ *
+ * Seeds are the first of the particles; snow_aggregate_obstacles() tells the
+ * obstacles.
+ *
  * @param grid a grid of this model.
  * @param params initialised; filled in.
  * @return ::SNOW_OK, ::SNOW_ERROR_NULL, ::SNOW_ERROR_STRUCT_SIZE,
@@ -271,6 +279,19 @@ SNOW_API snow_status snow_aggregate_walkers(const snow_grid *grid, uint64_t *cou
  *         lattice. Cost: proportional to count.
  */
 SNOW_API snow_status snow_aggregate_sites(const snow_grid *grid, uint64_t first, snow_site *sites, size_t count);
+
+/**
+ * @brief The sites of the obstacles, in the order in which they were given.
+ * @param grid a grid of this model.
+ * @param sites receives them; NULL: only the count is wanted.
+ * @param capacity how many the array holds.
+ * @param count receives how many there are; may be NULL unless sites is.
+ * @return ::SNOW_OK, ::SNOW_ERROR_NULL; ::SNOW_ERROR_BUFFER when capacity is
+ *         too small; ::SNOW_ERROR_UNSUPPORTED for another model. Cost:
+ *         proportional to their number.
+ */
+SNOW_API snow_status snow_aggregate_obstacles(const snow_grid *grid, snow_site *sites, size_t capacity,
+                                              size_t *count);
 
 /**
  * @brief Where particles are.

@@ -257,7 +257,8 @@ SNOW_API snow_status snow_frozen(const snow_grid *grid, uint64_t *cells);
  * @brief Greatest Euclidean distance of a frozen cell from the origin.
  * @param grid the grid.
  * @param radius receives it, in lattice spacings; 0 when nothing is frozen.
- * @return ::SNOW_OK or ::SNOW_ERROR_NULL. Cost: constant.
+ * @return ::SNOW_OK or ::SNOW_ERROR_NULL. Cost: constant; where frozen cells
+ *         move (::SNOW_AGGREGATE_CLUSTER_CLUSTER) one pass over them.
  */
 SNOW_API snow_status snow_tip_radius(const snow_grid *grid, double *radius);
 
@@ -266,7 +267,7 @@ SNOW_API snow_status snow_tip_radius(const snow_grid *grid, double *radius);
  * @param grid the grid.
  * @param bounds receives it; width and height are 0 when nothing is frozen.
  * @return ::SNOW_OK or ::SNOW_ERROR_NULL; ::SNOW_ERROR_TOO_LARGE when a cell
- *         lies 2^30 or more from an axis. Cost: constant.
+ *         lies 2^30 or more from an axis. Cost: as snow_tip_radius().
  */
 SNOW_API snow_status snow_frozen_bounds(const snow_grid *grid, snow_rect *bounds);
 
@@ -274,7 +275,7 @@ SNOW_API snow_status snow_frozen_bounds(const snow_grid *grid, snow_rect *bounds
  * @brief The smallest hexagon that holds every frozen cell.
  * @param grid the grid.
  * @param hexagon receives it; empty when nothing is frozen.
- * @return ::SNOW_OK or ::SNOW_ERROR_NULL. Cost: constant.
+ * @return ::SNOW_OK or ::SNOW_ERROR_NULL. Cost: as snow_tip_radius().
  */
 SNOW_API snow_status snow_frozen_hexagon(const snow_grid *grid, snow_hexagon *hexagon);
 
@@ -473,7 +474,10 @@ SNOW_API snow_status snow_save_to(const snow_grid *grid, snow_writer write, void
  *
  * Nothing in the data is trusted: damaged, truncated or hostile data give an
  * error, and never more memory is asked for than 64 MB and a hundred times the
- * size of the data; options->memory_limit draws the line closer.
+ * size of the data, and, for a cluster of aggregation, a map of the air between
+ * its particles; options->memory_limit draws the line where you want it. It
+ * holds for the grid, and for a list of a cluster's sites that is kept while
+ * they are read, each by itself: what was saved under a limit is loaded under it.
  *
  * @param buffer the data.
  * @param size bytes of data; bytes after the end of the grid are an error.

@@ -72,7 +72,9 @@ SNOW_API snow_status snow_box_count(const snow_grid *grid, int32_t side, uint64_
  * @param grid the grid.
  * @param density receives frozen cells by cells, 1 for a full hexagon; 0 when
  *        nothing is frozen.
- * @return ::SNOW_OK or ::SNOW_ERROR_NULL. Cost: constant.
+ * @return ::SNOW_OK, ::SNOW_ERROR_NULL; ::SNOW_ERROR_UNSUPPORTED where there
+ *         are no cells to count: in space and off the lattice. Cost: as
+ *         snow_tip_radius().
  */
 SNOW_API snow_status snow_density(const snow_grid *grid, double *density);
 

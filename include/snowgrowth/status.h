@@ -168,7 +168,7 @@ typedef enum snow_status {
     SNOW_ERROR_AGGREGATE_OBSTACLE = 3006,
     /** Two seeds, two obstacles, or a seed and an obstacle are on the same site. */
     SNOW_ERROR_AGGREGATE_OVERLAP = 3007,
-    /** The launch is blocked: no column, or a seed or obstacle where walkers start. */
+    /** No walker can start: the launch interval is empty, or seeds or obstacles block the launch. */
     SNOW_ERROR_AGGREGATE_LAUNCH = 3008,
     /** No way leads from the launch to anything that holds a walker. */
     SNOW_ERROR_AGGREGATE_PATH = 3009,

@@ -189,6 +189,19 @@ static void points(const snow_grid *grid, uint64_t first, snow_point *result, si
     }
 }
 
+/* Every particle is frozen, and is looked for where it has drifted. */
+static void survey(const snow_grid *grid, snow_census *census)
+{
+    snow_site site;
+    census->frozen = count(grid);
+    for (uint64_t i = 0; i < census->frozen; i++) {
+        sites(grid, i, &site, 1);
+        double square = (double)aggregate_square(aggregate_of(grid), site);
+        census->tip_square = square > census->tip_square ? square : census->tip_square;
+        snow_hexagon_hold(&census->hexagon, site.x, site.y);
+    }
+}
+
 int32_t snow_aggregate_box(const snow_grid *grid)
 {
     return clusters_of(grid)->box.side;
@@ -335,6 +348,7 @@ const aggregate_scene snow_aggregate_cluster_cluster = {
     .count = count,
     .sites = sites,
     .points = points,
+    .survey = survey,
     .save = save,
     .load = load,
     .destroy = destroy,

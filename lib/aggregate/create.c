@@ -93,6 +93,12 @@ void snow_aggregate_follow(snow_grid *grid)
     };
 }
 
+static void survey(const snow_grid *grid, snow_census *census)
+{
+    if (aggregate_of(grid)->scene->survey != NULL)
+        aggregate_of(grid)->scene->survey(grid, census);
+}
+
 static void destroy(snow_grid *grid)
 {
     aggregate *model = aggregate_of(grid);
@@ -111,6 +117,7 @@ const snow_model_operations snow_aggregate_operations = {
     .advance = snow_aggregate_advance,
     .can_read = snow_aggregate_can_read,
     .read = snow_aggregate_read,
+    .survey = survey,
     .set = snow_aggregate_set,
     .digest = snow_aggregate_digest,
     .save = snow_aggregate_save,

@@ -44,16 +44,26 @@ static bool is_inside(const snow_grid *grid, snow_site site)
     return model->scene->inside == NULL || model->scene->inside(grid, site);
 }
 
+/* The site one step away; in a periodic box round it. */
+static snow_site beside(const snow_grid *grid, snow_site site, snow_site step)
+{
+    const snow_aggregate_params *params = &aggregate_of(grid)->params;
+    snow_site next = snow_aggregate_beside(params, site, step);
+    if (params->scene != SNOW_AGGREGATE_CLUSTER_CLUSTER)
+        return next;
+    int32_t side = snow_aggregate_box(grid);
+    return (snow_site){(next.x + side) % side, (next.y + side) % side, next.z};
+}
+
 static bool is_receptive(const snow_grid *grid, snow_site site)
 {
     if (is_filled(grid, site))
         return true;
     if (!is_inside(grid, site))
         return false;
-    const snow_aggregate_params *params = &aggregate_of(grid)->params;
-    const aggregate_neighbours *around = snow_aggregate_contacts(params);
+    const aggregate_neighbours *around = snow_aggregate_contacts(&aggregate_of(grid)->params);
     for (int i = 0; i < around->count; i++)
-        if (is_filled(grid, snow_aggregate_beside(params, site, around->step[i])))
+        if (is_filled(grid, beside(grid, site, around->step[i])))
             return true;
     return false;
 }

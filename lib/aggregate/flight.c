@@ -234,9 +234,11 @@ COPIED snow_site leave_ball(const snow_source_of_walkers *source, manner how, sn
     return how.in_vessel ? fold(source, how.lattice, site) : site;
 }
 
-/* A turn outside the map. */
+/* A turn outside the map. In space it begins with a block, as lanes want it. */
 COPIED snow_site drift(const snow_ground *ground, manner how, snow_site site, snow_draws *draws)
 {
+    if (how.lattice == SNOW_AGGREGATE_CUBIC)
+        snow_draws_end_block(draws);
     int64_t clear = clear_of(&ground->source, how.lattice, site);
     if (RARE(clear > ground->source.safe))
         return snow_source_come_in(&ground->source, site, draws);
@@ -251,13 +253,9 @@ COPIED snow_site drift(const snow_ground *ground, manner how, snow_site site, sn
 /* From outside the map until it is inside again. No cluster can change that. */
 COPIED snow_site come_in(const snow_ground *ground, manner how, snow_site site, snow_draws *draws)
 {
-    if (how.lattice == SNOW_AGGREGATE_CUBIC)
-        snow_draws_end_block(draws);
     do
         site = drift(ground, how, site, draws);
     while (tile_at(ground, how.lattice, site) < 0);
-    if (how.lattice == SNOW_AGGREGATE_CUBIC)
-        snow_draws_end_block(draws);
     return site;
 }
 
@@ -384,40 +382,6 @@ void snow_flight_resume(const snow_ground *ground, snow_flight *flight, uint64_t
 {
     snow_draws_start(&flight->draws, ground->refill, key, walker, stay.drawn);
     set_down(flight, stay.site, stay.landed);
-}
-
-/* A turn of a walker that is far away, or leaves a hexagon through a circle. */
-static void help(const snow_ground *ground, snow_flight *flight, uint32_t seen)
-{
-    manner how = manner_of(ground);
-    snow_site site = site_of(flight, how);
-    if (seen == SNOW_MAP_BEYOND && how.lattice == SNOW_AGGREGATE_CUBIC)
-        site = come_in(ground, how, site, &flight->draws);
-    else if (seen == SNOW_MAP_BEYOND)
-        site = drift(ground, how, site, &flight->draws);
-    else
-        site = leave(ground, how, site, seen, &flight->draws);
-    put_at(flight, how, site);
-}
-
-void snow_squad_help(const snow_ground *ground, snow_squad *squad, uint32_t still)
-{
-    const snow_row *row = snow_squad_row(squad, squad->next - 1);
-    for (int lane = 0; lane < SNOW_LANES; lane++) {
-        if ((still >> lane & 1) == 0)
-            continue;
-        if (row->answer[lane] == 0) {
-            squad->landed |= 1u << lane;
-            continue;
-        }
-        snow_flight *flight = &squad->flight[lane];
-        flight->x = squad->lanes.x[lane];
-        flight->y = squad->lanes.y[lane];
-        flight->z = squad->lanes.z[lane];
-        snow_draws_move(&flight->draws, squad->lanes.drawn[lane]);
-        help(ground, flight, row->answer[lane]);
-        snow_squad_enter(squad, lane);
-    }
 }
 
 static bool is_outdated(const snow_ground *ground, const snow_squad *squad, int lane, uint32_t row)

@@ -29,26 +29,24 @@ static int64_t distance_of(const snow_growth *growth, snow_site site)
     return x * x + y * y + z * z;
 }
 
-/* The least of unit * 1, 2, 3, 4, 6, 8, 12 ... above a quarter more than wanted, and the margin that the maps need. */
-static int64_t extent(int64_t wanted, int64_t unit, int64_t margin)
-{
-    int64_t needed = wanted + wanted / 4 + margin;
-    int64_t size = unit;
-    while (size < needed && size + size / 2 < needed)
-        size *= 2;
-    if (size >= needed)
-        return size;
-    return size == unit ? 2 * unit : size + size / 2;
-}
-
 static int64_t whole(int64_t sites, int64_t unit)
 {
     return (sites + unit - 1) / unit * unit;
 }
 
+/* A quarter more than wanted, and the margin that the maps need, in steps of a sixteenth to an eighth. */
+static int64_t extent(int64_t wanted, int64_t unit, int64_t margin)
+{
+    int64_t needed = wanted + wanted / 4 + margin;
+    int64_t step = unit;
+    while (16 * step < needed)
+        step *= 2;
+    return whole(needed, step);
+}
+
 static snow_plane_box plane_box(const snow_source_of_walkers *source)
 {
-    enum { UNIT = 1024, TILE = 32 };
+    enum { UNIT = 512, TILE = 32 };
     int64_t up = extent(source->reach, UNIT, SNOW_PLANE_MARGIN);
     if (source->width == 0)
         return (snow_plane_box){(int32_t)-up, (int32_t)-up, (uint32_t)(2 * up / TILE), (uint32_t)(2 * up / TILE)};

@@ -226,4 +226,14 @@ static inline void make_keys(uint64_t key[2 * SNOW_RANDOM_ROUNDS], uint64_t firs
     }
 }
 
+/* snow_exits_class_near(), where a lane's mask is set; 0 elsewhere. */
+INLINE lanes class_near(const snow_exits *exits, lanes clear, lanes where)
+{
+    /* The exponent and three more bits. */
+    lanes bits = _mm256_srli_epi32(_mm256_castps_si256(_mm256_cvtepi32_ps(clear)), 20);
+    lanes part = _mm256_min_epu32(_mm256_sub_epi32(bits, all(127 << 3)), all(SNOW_EXIT_OCTAVES * SNOW_EXIT_PARTS - 1));
+    lanes four = _mm256_mask_i32gather_epi32(_mm256_setzero_si256(), (const void *)exits->class_from, part, where, 1);
+    return _mm256_and_si256(four, all(255));
+}
+
 #endif

@@ -90,21 +90,15 @@ INLINE void look(const snow_plane_map *map, question *q)
     look_closely(map, q);
 }
 
-/* The class of what is free outside the map: snow_exits_class_near(). */
 INLINE lanes class_outside(const snow_ground *ground, bool hexagonal, const question *q)
 {
     lanes most = _mm256_max_epi32(_mm256_abs_epi32(q->x), _mm256_abs_epi32(q->y));
     if (hexagonal)
         most = _mm256_max_epi32(most, _mm256_abs_epi32(_mm256_add_epi32(q->x, q->y)));
     lanes clear = _mm256_sub_epi32(most, all((uint32_t)ground->source.reach));
-    /* The exponent and three more bits. */
-    lanes bits = _mm256_srli_epi32(_mm256_castps_si256(_mm256_cvtepi32_ps(clear)), 20);
-    lanes part = _mm256_min_epu32(_mm256_sub_epi32(bits, all(127 << 3)), all(SNOW_EXIT_OCTAVES * SNOW_EXIT_PARTS - 1));
-    lanes outside = _mm256_xor_si256(q->inside, all(UINT32_MAX));
-    lanes class = _mm256_mask_i32gather_epi32(_mm256_setzero_si256(), (const void *)ground->exits.class_from, part,
-                                              outside, 1);
     lanes is_beyond = _mm256_cmpgt_epi32(clear, all((uint32_t)ground->source.safe));
-    return choose(is_beyond, all(SNOW_MAP_BEYOND), _mm256_and_si256(class, all(255)));
+    lanes outside = _mm256_xor_si256(q->inside, all(UINT32_MAX));
+    return choose(is_beyond, all(SNOW_MAP_BEYOND), class_near(&ground->exits, clear, outside));
 }
 
 INLINE void find_table(const snow_ground *ground, bool hexagonal, question *q)
@@ -174,7 +168,7 @@ INLINE void throw_some(const snow_ground *ground, bool hexagonal, question *q, w
 {
     lanes first = all(hexagonal ? (uint32_t)ground->exits.circles : SNOW_MAP_BEYOND);
     q->is_thrown = _mm256_cmpeq_epi32(_mm256_max_epu32(q->class, first), q->class);
-    if (_mm256_testz_si256(q->is_thrown, q->is_thrown))
+    if (!any(q->is_thrown))
         return;
     lanes comes_in = _mm256_cmpeq_epi32(q->class, all(SNOW_MAP_BEYOND));
     lanes hexagon = hexagonal ? _mm256_i32gather_epi32(ground->exits.circle, q->class, 4) : _mm256_setzero_si256();

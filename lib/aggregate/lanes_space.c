@@ -1,9 +1,9 @@
 /* Squads in the lanes of vectors, on the cubic lattice: lanes_plane.c in space.
 
    Pages and lines have numbers, so what is looked up has 32 bits, but for the
-   columns of the exit laws. Lanes outside the map stand still until they are
-   helped: a ball costs more than a look-up, and few are outside at a time. */
-#include "aggregate/lanes.h"
+   columns of the exit laws. To come in, or to leave a ball, takes a whole block of
+   numbers: lanes do it with the first question of one, and stand still in the second. */
+#include "aggregate/lanes_ball.h"
 
 /* What a question needs from one link of the chain to the next. */
 typedef struct question {
@@ -15,6 +15,8 @@ typedef struct question {
     lanes near, is_close;
     lanes line;
     lanes seen; /* 0, a class, or SNOW_MAP_BEYOND */
+    lanes class;
+    lanes is_thrown; /* onto a sphere, with this block */
     lanes radius, first;
     wide pick, exit;
 } question;
@@ -112,9 +114,35 @@ INLINE void look(const snow_space_map *map, question *q)
     look_closely(map, q);
 }
 
+/* Free distance from the cluster, outside the map. */
+INLINE lanes clear_of(const snow_source_of_walkers *source, const question *q)
+{
+    lanes most = _mm256_max_epi32(_mm256_abs_epi32(q->x), _mm256_abs_epi32(q->y));
+    return _mm256_sub_epi32(_mm256_max_epi32(most, _mm256_abs_epi32(q->z)), all((uint32_t)source->reach));
+}
+
+/* Who is outside is thrown onto a sphere with both numbers of the block, or, next to the
+   cluster, jumps with the first one. */
+INLINE void go_outside(const snow_ground *ground, question *q, const wide block[2])
+{
+    lanes outside = _mm256_cmpeq_epi32(q->seen, all(SNOW_MAP_BEYOND));
+    q->is_thrown = _mm256_setzero_si256();
+    if (!any(outside))
+        return;
+    lanes clear = clear_of(&ground->source, q);
+    lanes is_beyond = _mm256_cmpgt_epi32(clear, all((uint32_t)ground->source.safe));
+    outsiders who = {q->x, q->y, q->z, _mm256_and_si256(is_beyond, outside)};
+    q->is_thrown = _mm256_and_si256(throw_all(&ground->source, &who, block), outside);
+    q->x = choose(q->is_thrown, who.x, q->x);
+    q->y = choose(q->is_thrown, who.y, q->y);
+    q->z = choose(q->is_thrown, who.z, q->z);
+    lanes is_near = _mm256_andnot_si256(q->is_thrown, outside);
+    q->class = choose(is_near, class_near(&ground->exits, clear, is_near), q->class);
+}
+
 INLINE void find_table(const snow_exits *exits, question *q)
 {
-    lanes place = look_up(exits->place, q->seen);
+    lanes place = look_up(exits->place, q->class);
     q->radius = _mm256_and_si256(place, all((1u << SNOW_EXIT_RADIUS_BITS) - 1));
     q->first = _mm256_srli_epi32(place, SNOW_EXIT_RADIUS_BITS);
 }
@@ -165,9 +193,8 @@ INLINE void jump(question *q, wide number)
 
 #define EACH(i) _Pragma("GCC unroll 4") for (int i = 0; i < count; i++)
 
-/* All ask a question, each with its half of a block of numbers, and jump. Who cannot has a radius of 0. */
-INLINE void go_on(const snow_ground *ground, question *q, snow_squad *squads, wide (*block)[2], uint32_t half,
-                  int count)
+/* All ask a question. Who has been thrown with this block asks anew after it. */
+INLINE void ask(const snow_ground *ground, question *q, snow_squad *squads, uint32_t half, int count)
 {
     const snow_space_map *map = &ground->space;
     EACH(i) {
@@ -175,7 +202,8 @@ INLINE void go_on(const snow_ground *ground, question *q, snow_squad *squads, wi
         store(row->x, q[i].x);
         store(row->y, q[i].y);
         store(snow_squad_heights(&squads[i], squads[i].next)->z, q[i].z);
-        store(row->drawn, _mm256_add_epi32(load(squads[i].lanes.drawn), all(half)));
+        lanes used = _mm256_sub_epi32(all(half), q[i].is_thrown);
+        store(row->drawn, _mm256_add_epi32(load(squads[i].lanes.drawn), used));
     }
     EACH(i) {
         find_tile(map, &q[i]);
@@ -186,18 +214,24 @@ INLINE void go_on(const snow_ground *ground, question *q, snow_squad *squads, wi
     EACH(i) find_line(map, &q[i]);
     EACH(i) look_closely(map, &q[i]);
     EACH(i) store(snow_squad_row(&squads[i], squads[i].next++)->answer, q[i].seen);
+    EACH(i) q[i].class = q[i].seen;
+}
+
+/* Each with its half of a block of numbers. Who has landed has a radius of 0, and who is thrown. */
+INLINE void jump_all(const snow_ground *ground, question *q, wide (*block)[2], uint32_t half, int count)
+{
     EACH(i) find_table(&ground->exits, &q[i]);
     EACH(i) find_exit(&ground->exits, &q[i], block[i][half]);
     EACH(i) jump(&q[i], block[i][half]);
 }
 
-INLINE lanes stays(const question *q)
+INLINE lanes has_landed(const question *q)
 {
-    return _mm256_cmpeq_epi32(q->radius, _mm256_setzero_si256());
+    return _mm256_cmpeq_epi32(q->seen, _mm256_setzero_si256());
 }
 
-/* Two questions of each. In `still` are the lanes that did not move at the second one. */
-INLINE void use_block(const snow_ground *ground, const uint64_t *key, snow_squad *squads, uint32_t *still, int count)
+/* Two questions of each. */
+INLINE void use_block(const snow_ground *ground, const uint64_t *key, snow_squad *squads, int count)
 {
     question q[SNOW_SQUADS];
     wide block[SNOW_SQUADS][2];
@@ -206,17 +240,22 @@ INLINE void use_block(const snow_ground *ground, const uint64_t *key, snow_squad
     EACH(i) q[i].x = load(squads[i].lanes.x);
     EACH(i) q[i].y = load(squads[i].lanes.y);
     EACH(i) q[i].z = load(squads[i].lanes.z);
-    go_on(ground, q, squads, block, 0, count);
-    EACH(i) at_once[i] = stays(&q[i]);
-    go_on(ground, q, squads, block, 1, count);
+    EACH(i) q[i].is_thrown = _mm256_setzero_si256();
+    ask(ground, q, squads, 0, count);
+    EACH(i) at_once[i] = has_landed(&q[i]);
+    EACH(i) go_outside(ground, &q[i], block[i]);
+    jump_all(ground, q, block, 0, count);
+    ask(ground, q, squads, 1, count);
+    EACH(i) q[i].class = choose(q[i].is_thrown, all(SNOW_MAP_BEYOND), q[i].class);
+    jump_all(ground, q, block, 1, count);
     EACH(i) {
         snow_lanes *walkers = &squads[i].lanes;
         store(walkers->x, q[i].x);
         store(walkers->y, q[i].y);
         store(walkers->z, q[i].z);
-        /* Those who stood still from the first have not used the block. */
+        /* Those who had landed at once have not used the block. */
         store(walkers->drawn, _mm256_add_epi32(load(walkers->drawn), _mm256_andnot_si256(at_once[i], all(2))));
-        still[i] = (uint32_t)_mm256_movemask_ps(_mm256_castsi256_ps(stays(&q[i]))) & squads[i].busy;
+        squads[i].landed = (uint32_t)_mm256_movemask_ps(_mm256_castsi256_ps(has_landed(&q[i])));
     }
 }
 
@@ -237,13 +276,9 @@ INLINE void walk(const snow_ground *ground, snow_squad *squads, int count)
     make_keys(key, squads[0].key);
     uint32_t landed = 0;
     for (uint32_t blocks = blocks_left(squads, count); blocks > 0 && landed == 0; blocks--) {
-        uint32_t still[SNOW_SQUADS];
-        use_block(ground, key, squads, still, count);
-        for (int i = 0; i < count; i++) {
-            if (still[i] != 0)
-                snow_squad_help(ground, &squads[i], still[i]);
+        use_block(ground, key, squads, count);
+        for (int i = 0; i < count; i++)
             landed |= squads[i].landed & squads[i].busy;
-        }
     }
 }
 

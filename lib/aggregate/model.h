@@ -42,6 +42,8 @@ typedef struct aggregate_scene {
     void (*sites)(const snow_grid *grid, uint64_t first, snow_site *sites, size_t count);
     /* Where particles are, where that is not their sites. NULL: on their sites. */
     void (*points)(const snow_grid *grid, uint64_t first, snow_point *points, size_t count);
+    /* As that of snow_model_operations. */
+    void (*survey)(const snow_grid *grid, snow_census *census);
     /* On which particle one sits, −1: on none. NULL: on the oldest neighbour. */
     int64_t (*parent)(const snow_grid *grid, uint64_t number);
     void (*destroy)(snow_grid *grid);

@@ -57,6 +57,23 @@ snow_status snow_aggregate_sites(const snow_grid *grid, uint64_t first, snow_sit
     return SNOW_OK;
 }
 
+snow_status snow_aggregate_obstacles(const snow_grid *grid, snow_site *sites, size_t capacity, size_t *count)
+{
+    snow_status status = check(grid, sites != NULL ? (const void *)sites : (const void *)count);
+    if (status != SNOW_OK)
+        return status;
+    const snow_sites *obstacles = &aggregate_of(grid)->obstacles;
+    if (count != NULL)
+        *count = (size_t)obstacles->count;
+    if (sites == NULL)
+        return SNOW_OK;
+    if (capacity < obstacles->count)
+        return SNOW_ERROR_BUFFER;
+    for (uint64_t i = 0; i < obstacles->count; i++)
+        sites[i] = snow_sites_at(obstacles, i);
+    return SNOW_OK;
+}
+
 void snow_aggregate_list_points(const snow_grid *grid, uint64_t first, snow_point *points, size_t count)
 {
     const aggregate *model = aggregate_of(grid);

@@ -114,7 +114,7 @@ snow_status snow_aggregate_find_path(snow_grid *grid)
         self.front = snow_heap_get_raw(&grid->heap, cells, sizeof *self.front);
         status = self.front != NULL ? SNOW_OK : grid->heap.refusal;
     }
-    if (status == SNOW_OK && !reaches_cluster(&self, model))
+    if (self.front != NULL && !reaches_cluster(&self, model))
         status = SNOW_ERROR_AGGREGATE_PATH;
     snow_heap_put(&grid->heap, self.front);
     snow_cells_end(&self.cells, &grid->heap);

@@ -85,6 +85,8 @@ static void start_page(snow_plane_map *map, uint32_t page, uint8_t class)
 
 static snow_status cover(snow_plane_map *map, snow_heap *heap, snow_plane_box box)
 {
+    if ((uint64_t)box.columns * box.rows > INT32_MAX)
+        return SNOW_ERROR_TOO_LARGE;
     _Atomic uint32_t *tile = snow_heap_get_raw(heap, tiles_of(box), sizeof *tile);
     uint8_t *tile_class = snow_heap_get_raw(heap, tiles_of(box), 1);
     uint32_t *changed = snow_heap_get(heap, tiles_of(box), sizeof *changed);

@@ -52,7 +52,9 @@ static snow_status make_law(snow_ring *self, snow_heap *heap, int level, double 
     int32_t radius = 1 << level;
     snow_ring_exit *exit = snow_heap_get(heap, sites_of_side(self->lattice, radius), sizeof *exit);
     self->exit[level] = exit;
-    snow_status status = exit != NULL ? snow_exits_law(self->lattice, radius, chance, heap) : heap->refusal;
+    if (exit == NULL)
+        return heap->refusal;
+    snow_status status = snow_exits_law(self->lattice, radius, chance, heap);
     if (status != SNOW_OK)
         return status;
     uint32_t sites = list_side(self->lattice, radius, chance, alias->weight, exit);
@@ -75,7 +77,7 @@ static snow_status make_laws(snow_ring *self, snow_heap *heap)
         return status;
     double *chance = snow_heap_get(heap, most, sizeof *chance);
     status = chance != NULL ? SNOW_OK : heap->refusal;
-    for (int level = 1; level < self->levels && status == SNOW_OK; level++)
+    for (int level = 1; chance != NULL && level < self->levels && status == SNOW_OK; level++)
         status = make_law(self, heap, level, chance, &alias);
     snow_heap_put(heap, chance);
     snow_alias_end(&alias, heap);

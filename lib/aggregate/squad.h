@@ -76,10 +76,6 @@ void snow_squads_walk_avx512(const snow_ground *ground, snow_squad *squads, int 
 void snow_squads_walk_space_avx2(const snow_ground *ground, snow_squad *squads, int count);
 void snow_squads_walk_space_avx512(const snow_ground *ground, snow_squad *squads, int count);
 
-/* For lanes, when in some the walker has stood still for a row: those that have landed
-   are marked, others are helped with what takes whole blocks of numbers. */
-void snow_squad_help(const snow_ground *ground, snow_squad *squad, uint32_t still);
-
 /* The walker of flight[lane] sets out. */
 void snow_squad_enter(snow_squad *squad, int lane);
 

@@ -69,12 +69,26 @@ void snow_census_add(snow_census *census, int32_t q, int32_t r)
     snow_hexagon_hold(&census->hexagon, q, r);
 }
 
+snow_census snow_census_of(const snow_grid *grid)
+{
+    snow_census census = grid->census;
+    if (grid->operations->survey != NULL)
+        grid->operations->survey(grid, &census);
+    return census;
+}
+
+static bool tip_has_reached(const snow_grid *grid, double radius)
+{
+    snow_census census = snow_census_of(grid);
+    return snow_census_tip(&census) >= radius;
+}
+
 snow_stop_reason snow_crystal_stops(const snow_grid *grid, const snow_stop *stop)
 {
     const snow_census *census = &grid->census;
     if (stop->rim && census->rim)
         return SNOW_STOP_RIM;
-    if (stop->tip_radius > 0 && snow_census_tip(census) >= stop->tip_radius)
+    if (stop->tip_radius > 0 && tip_has_reached(grid, stop->tip_radius))
         return SNOW_STOP_RADIUS;
     if (stop->height > 0 && census->height >= stop->height)
         return SNOW_STOP_HEIGHT;
@@ -93,7 +107,9 @@ bool snow_frozen_next(const snow_grid *grid, snow_rect *part)
 {
     if (grid->operations->next_frozen != NULL)
         return grid->operations->next_frozen(grid, part);
-    bool first = part->width == 0;
-    *part = first ? snow_domain_rect(&grid->census.hexagon) : (snow_rect){0, 0, 0, 0};
+    if (part->width > 0)
+        return false;
+    snow_census census = snow_census_of(grid);
+    *part = snow_domain_rect(&census.hexagon);
     return part->width > 0;
 }

@@ -69,6 +69,8 @@ typedef struct snow_model_operations {
     snow_status (*can_read)(const snow_grid *grid, snow_field field);
     /* count values of row r from column q on; any cells. */
     void (*read)(const snow_grid *grid, snow_field field, int64_t q, int64_t r, size_t count, double *values);
+    /* What the census says of frozen cells where they move: how many, their hexagon, the tip. NULL: it follows them. */
+    void (*survey)(const snow_grid *grid, snow_census *census);
     /* As snow_frozen_next(). NULL: all in one part. */
     bool (*next_frozen)(const snow_grid *grid, snow_rect *part);
     /* All or nothing. */
@@ -98,6 +100,9 @@ snow_status snow_grid_new(const snow_model_operations *operations, const snow_op
 void snow_grid_end(snow_grid *grid);
 /* The end of making a grid: `result` receives it if all went well, else it is ended, unless it is NULL. Returns the status. */
 snow_status snow_grid_hand_over(snow_grid *grid, snow_status status, snow_grid **result);
+
+/* The census as the frozen cells stand now. */
+snow_census snow_census_of(const snow_grid *grid);
 
 /* Moves on from one part of the plane to the next, starting from an empty one: together they hold all frozen cells, so
    that nobody looks through the space between them. False: that was the last. Only where snow_domain_reaches(). */

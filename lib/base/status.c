@@ -72,13 +72,13 @@ const char *snow_strerror(snow_status status)
     case SNOW_ERROR_AGGREGATE_SEED: return "a seed lies outside the domain, or there is none";
     case SNOW_ERROR_AGGREGATE_OBSTACLE: return "an obstacle lies outside the domain, or the scene has none";
     case SNOW_ERROR_AGGREGATE_OVERLAP: return "seeds and obstacles must be on different sites";
-    case SNOW_ERROR_AGGREGATE_LAUNCH: return "the launch is blocked";
+    case SNOW_ERROR_AGGREGATE_LAUNCH: return "no walker can start: the launch interval is empty, or seeds or obstacles block the launch";
     case SNOW_ERROR_AGGREGATE_PATH: return "no free path leads from the launch to the cluster";
-    case SNOW_ERROR_AGGREGATE_RADIUS: return "the end radius must be at least 1 and less than the launch radius";
+    case SNOW_ERROR_AGGREGATE_RADIUS: return "the end radius must be at least 1 and less than the launch radius, that at most 1048576 (131072 in space)";
     case SNOW_ERROR_AGGREGATE_SIDES: return "the sides of the box must be between 1 and 1048576, its depth at most 1024";
     case SNOW_ERROR_AGGREGATE_INTERACTION: return "the interaction radius must be between 0 and 1024";
     case SNOW_ERROR_AGGREGATE_HARDNESS: return "the hardness must be between 1 and 65535, the least not above the greatest";
-    case SNOW_ERROR_AGGREGATE_WALLS: return "the walls must lie in the box with a column between them";
+    case SNOW_ERROR_AGGREGATE_WALLS: return "the walls cross, leave no column between them, or lie outside the box";
     case SNOW_ERROR_AGGREGATE_PARTICLES: return "the number of particles is 0 or too great";
     case SNOW_ERROR_AGGREGATE_DENSITY: return "the density must be above 0 and at most 1/2";
     case SNOW_ERROR_AGGREGATE_MOBILITY: return "the mobility exponent must be between 0 and 4";

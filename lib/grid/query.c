@@ -33,7 +33,8 @@ snow_status snow_tip_radius(const snow_grid *grid, double *radius)
         return SNOW_ERROR_NULL;
     snow_floating floating;
     snow_floating_enter(&floating);
-    *radius = snow_census_tip(&grid->census);
+    snow_census census = snow_census_of(grid);
+    *radius = snow_census_tip(&census);
     snow_floating_leave(&floating);
     return SNOW_OK;
 }
@@ -42,10 +43,10 @@ snow_status snow_frozen_bounds(const snow_grid *grid, snow_rect *bounds)
 {
     if (grid == NULL || bounds == NULL)
         return SNOW_ERROR_NULL;
-    const snow_hexagon *hexagon = &grid->census.hexagon;
-    if (!snow_domain_reaches(hexagon))
+    snow_census census = snow_census_of(grid);
+    if (!snow_domain_reaches(&census.hexagon))
         return SNOW_ERROR_TOO_LARGE;
-    *bounds = snow_domain_rect(hexagon);
+    *bounds = snow_domain_rect(&census.hexagon);
     return SNOW_OK;
 }
 
@@ -53,7 +54,7 @@ snow_status snow_frozen_hexagon(const snow_grid *grid, snow_hexagon *hexagon)
 {
     if (grid == NULL || hexagon == NULL)
         return SNOW_ERROR_NULL;
-    *hexagon = grid->census.hexagon;
+    *hexagon = snow_census_of(grid).hexagon;
     return SNOW_OK;
 }
 

@@ -75,12 +75,13 @@ static double now(void)
 
 static SNOW_APART snow_summary summarise(const snow_grid *grid, snow_stop_reason reason, double started)
 {
+    snow_census census = snow_census_of(grid);
     return (snow_summary){
         .struct_size = sizeof(snow_summary),
         .reason = reason,
         .steps = grid->census.steps,
         .frozen = snow_census_frozen(&grid->census),
-        .tip_radius = snow_census_tip(&grid->census),
+        .tip_radius = snow_census_tip(&census),
         .seconds = now() - started,
     };
 }

@@ -85,9 +85,13 @@ snow_status snow_density(const snow_grid *grid, double *density)
 {
     if (grid == NULL || density == NULL)
         return SNOW_ERROR_NULL;
+    snow_status status = grid->operations->can_read(grid, SNOW_FIELD_INSIDE);
+    if (status != SNOW_OK)
+        return status;
     snow_floating floating;
     snow_floating_enter(&floating);
-    *density = density_of(&grid->census);
+    snow_census census = snow_census_of(grid);
+    *density = density_of(&census);
     snow_floating_leave(&floating);
     return SNOW_OK;
 }

@@ -12,9 +12,10 @@ static inline snow_status snow_frozen_rect(const snow_grid *grid, snow_rect *rec
     snow_status status = grid->operations->can_read(grid, SNOW_FIELD_FROZEN);
     if (status != SNOW_OK)
         return status;
-    if (!snow_domain_reaches(&grid->census.hexagon))
+    snow_census census = snow_census_of(grid);
+    if (!snow_domain_reaches(&census.hexagon))
         return SNOW_ERROR_TOO_LARGE;
-    *rect = snow_domain_rect(&grid->census.hexagon);
+    *rect = snow_domain_rect(&census.hexagon);
     return SNOW_OK;
 }
 

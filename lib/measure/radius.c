@@ -117,7 +117,8 @@ static SNOW_APART snow_status find_dimension(const snow_grid *grid, double *dime
 {
     double radii[MOST_RADII] = {0};
     uint64_t masses[MOST_RADII];
-    double tip = snow_census_tip(&grid->census);
+    snow_census census = snow_census_of(grid);
+    double tip = snow_census_tip(&census);
     double origin;
     snow_status status = grid->operations->can_read(grid, SNOW_FIELD_FROZEN);
     if (status != SNOW_OK)

@@ -27,10 +27,12 @@ static void keep_inside(const snow_grid *grid, int64_t q, int64_t r, uint64_t *a
     }
 }
 
+/* Only of cells that are allowed so far: outside the domain nothing freezes, whatever the zones say. */
 static void demand(const packard *model, int64_t step, int64_t q, int64_t r, uint64_t *allowed, uint64_t *priority)
 {
     for (int64_t y = 0; y < SNOW_TILE_SIDE; y++) {
-        for (int64_t x = 0; x < SNOW_TILE_SIDE; x++) {
+        for (uint64_t left = allowed[y]; left != 0; left &= left - 1) {
+            int x = __builtin_ctzll(left);
             unsigned demands = snow_packard_zones_at(model, step, q + x, r + y);
             if (demands & PACKARD_RESTRICTED)
                 allowed[y] &= ~(UINT64_C(1) << x);

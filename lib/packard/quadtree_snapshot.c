@@ -225,7 +225,7 @@ snow_status snow_quadtree_load(snow_heap *heap, uint8_t rule, snow_source *sourc
     /* No node is part of a crystal yet, so a collection would lose them all. */
     with.tree->collections = QUADTREE_COLLECTIONS;
     status = with.nodes == NULL ? heap->refusal : load_nodes(&with, count);
-    if (status == SNOW_OK)
+    if (with.nodes != NULL && status == SNOW_OK)
         status = load_root(&with);
     snow_heap_put(heap, with.nodes);
     if (status != SNOW_OK) {

@@ -68,16 +68,17 @@ snow_status snow_packard_copy_bits(const snow_grid *grid, int64_t q, int64_t r, 
         return SNOW_ERROR_NULL;
     if (!is_sound(q, width) || !is_sound(r, height))
         return SNOW_ERROR_RECTANGLE;
-    size_t stride = packard_words((uint64_t)width);
-    if (stride > 0 && (uint64_t)height > capacity / stride)
-        return SNOW_ERROR_BUFFER;
-    if (stride == 0 || height == 0)
+    if (width == 0 || height == 0)
         return SNOW_OK;
+    /* Rows can be longer than any array of this machine. */
+    uint64_t stride = ((uint64_t)width + PACKARD_WORD - 1) / PACKARD_WORD;
+    if ((uint64_t)height > capacity / stride || (uint64_t)width > SIZE_MAX)
+        return SNOW_ERROR_BUFFER;
     const packard *model = packard_of(grid);
     const packard_region region = {q, r, width, height};
     const packard_region bounds = snow_packard_bounds(grid);
     if (!meet(&region, &bounds)) { /* not every engine can look as far */
-        memset(words, 0, (size_t)height * stride * sizeof *words);
+        memset(words, 0, (size_t)height * (size_t)stride * sizeof *words);
         return SNOW_OK;
     }
     model->engine->copy(model->cells, &region, words);

@@ -64,6 +64,8 @@ static void destroy(snow_grid *grid, void *engine)
 
 static snow_status allocate(reference *cells)
 {
+    if ((uint64_t)cells->width * (uint64_t)cells->height > SIZE_MAX / sizeof *cells->date)
+        return SNOW_ERROR_TOO_LARGE;
     snow_heap *heap = &cells->grid->heap;
     size_t count = cells_of(cells);
     cells->frozen = snow_heap_get(heap, count, 1);
@@ -111,7 +113,7 @@ static void move(const reference *from, reference *to)
     for (int64_t r = from->r; r < from->r + from->height; r++) {
         size_t width = (size_t)from->width;
         memcpy(to->frozen + place(to, from->q, r), from->frozen + place(from, from->q, r), width);
-        if (from->date != NULL)
+        if (to->date != NULL)
             memcpy(to->date + place(to, from->q, r), from->date + place(from, from->q, r), width * sizeof *from->date);
     }
 }
@@ -129,8 +131,7 @@ static snow_status reach(reference *cells, int64_t q, int64_t r)
     larger.r = r < cells->r ? r - margin : cells->r;
     larger.width = (q >= end_q ? q + margin : end_q) - larger.q;
     larger.height = (r >= end_r ? r + margin : end_r) - larger.r;
-    if (larger.width > INT32_MAX || larger.height > INT32_MAX ||
-        (uint64_t)larger.width * (uint64_t)larger.height > SIZE_MAX / sizeof *cells->date)
+    if (larger.width > INT32_MAX || larger.height > INT32_MAX)
         return SNOW_ERROR_TOO_LARGE;
     larger.frozen = larger.next = NULL;
     larger.date = NULL;

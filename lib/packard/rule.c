@@ -52,12 +52,14 @@ static snow_status read_digits(const char *word, uint32_t *rule)
 /* Numbers of neighbours, in any order. */
 static snow_status read_numbers(const char **text, uint32_t *numbers)
 {
+    const char *next = *text;
     *numbers = 0;
-    for (; is_digit(**text); (*text)++) {
-        if (**text > '6')
+    for (; is_digit(*next); next++) {
+        if (*next > '6')
             return SNOW_ERROR_PACKARD_RULE_DIGIT;
-        *numbers |= UINT32_C(1) << (**text - '0');
+        *numbers |= UINT32_C(1) << (*next - '0');
     }
+    *text = next;
     return SNOW_OK;
 }
 

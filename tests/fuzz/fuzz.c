@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MEMORY = 1 << 18, MOST_CELLS = 400, MOST_BYTES = 1 << 15 };
+enum { MEMORY = 1 << 18, MOST_CELLS = 160, MOST_BYTES = 1 << 15 };
 
 fuzz_input fuzz_start(const uint8_t *data, size_t size)
 {
@@ -129,8 +129,17 @@ static bool answers(snow_status status)
     return status == SNOW_OK || status == SNOW_ERROR_UNSUPPORTED || status == SNOW_ERROR_NOT_RECORDED;
 }
 
+/* Scenes of many clusters count the largest as frozen, and fill the cells of all. */
+static bool is_one_crystal(const snow_grid *grid)
+{
+    snow_aggregate_params params;
+    snow_aggregate_params_init(&params, sizeof params);
+    return snow_aggregate_params_of(grid, &params) != SNOW_OK || params.scene != SNOW_AGGREGATE_CLUSTER_CLUSTER;
+}
+
 static void query_whole(const snow_grid *grid)
 {
+    bool one = is_one_crystal(grid);
     double vapour, ice, defect = 0, dimension;
     uint64_t digest, again, boxes, frozen, masses[3];
     REQUIRE(answers(snow_mass(grid, &vapour, &ice)));
@@ -138,14 +147,16 @@ static void query_whole(const snow_grid *grid)
     REQUIRE(snow_digest(grid, &digest) == SNOW_OK && snow_digest(grid, &again) == SNOW_OK && digest == again);
     REQUIRE(snow_frozen(grid, &frozen) == SNOW_OK);
     snow_status status = snow_box_count(grid, 1, &boxes);
-    REQUIRE(answers(status) && (status != SNOW_OK || boxes == frozen));
+    REQUIRE(answers(status) && (status != SNOW_OK || !one || boxes == frozen));
     status = snow_mass_radius(grid, (double[]){0, 2, 1e30}, 3, masses);
-    REQUIRE(answers(status) && (status != SNOW_OK || masses[2] == frozen));
+    REQUIRE(answers(status) && (status != SNOW_OK || !one || masses[2] == frozen));
     (void)snow_dimension(grid, &dimension);
 }
 
-static void query_picture(const snow_grid *grid)
+void fuzz_draw(const snow_grid *grid)
 {
+    if (!fuzz_is_small(grid))
+        return;
     snow_view view;
     unsigned char pixels[8 * 8 * 4];
     size_t size;
@@ -163,7 +174,7 @@ void fuzz_query(const snow_grid *grid)
     snow_model model;
     int64_t steps;
     uint64_t cells, bytes;
-    double radius, density;
+    double radius, density = 0;
     snow_rect rect;
     snow_hexagon hexagon;
     snow_isa isa;
@@ -172,16 +183,14 @@ void fuzz_query(const snow_grid *grid)
     REQUIRE(snow_memory(grid, &bytes) == SNOW_OK && bytes > 0 && bytes <= MEMORY);
     REQUIRE(snow_isa_of(grid, &isa) == SNOW_OK && snow_isa_available(isa));
     REQUIRE(snow_tip_radius(grid, &radius) == SNOW_OK && radius >= 0);
-    REQUIRE(snow_density(grid, &density) == SNOW_OK && density >= 0 && density <= 1);
+    REQUIRE(answers(snow_density(grid, &density)) && density >= 0 && density <= 1);
     REQUIRE(snow_frozen_hexagon(grid, &hexagon) == SNOW_OK);
     (void)snow_frozen(grid, &cells);
     (void)snow_frozen_bounds(grid, &rect);
     (void)snow_domain_bounds(grid, &rect);
     query_fields(grid);
-    if (!fuzz_is_small(grid))
-        return;
-    query_whole(grid);
-    query_picture(grid);
+    if (fuzz_is_small(grid))
+        query_whole(grid);
 }
 
 static unsigned char *save(const snow_grid *grid, size_t *size)

@@ -51,6 +51,9 @@ bool fuzz_is_small(const snow_grid *grid);
 /* Asks the grid whatever every model can be asked; the answers must fit each other. */
 void fuzz_query(const snow_grid *grid);
 
+/* Draws a small grid. */
+void fuzz_draw(const snow_grid *grid);
+
 /* Saves, loads, compares, and takes some steps with both. Only of small grids. */
 void fuzz_save_and_load(snow_grid *grid, int64_t steps);
 

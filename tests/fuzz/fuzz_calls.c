@@ -156,6 +156,7 @@ static void save_badly(handle *self)
 static void query(handle *self)
 {
     fuzz_query(self->grid);
+    fuzz_draw(self->grid);
 }
 
 static void change(handle *self)

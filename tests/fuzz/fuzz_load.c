@@ -58,7 +58,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     fuzz_query(grid);
     fuzz_save_and_load(grid, 1 + choice / 8 % 4);
     (void)snow_step(grid, 1);
-    fuzz_query(grid);
+    fuzz_draw(grid);
     snow_destroy(grid);
     return 0;
 }

@@ -28,7 +28,8 @@ static snow_packard_params scene_of(fuzz_input *input)
 {
     snow_packard_params params;
     snow_packard_params_init(&params, sizeof params);
-    params.domain = (snow_packard_domain)(1 + fuzz_below(input, 6));
+    uint32_t choice = fuzz_below(input, 12); /* seldom the plane: its tiles have 4096 cells each to ask zones for */
+    params.domain = choice == 0 ? SNOW_PACKARD_PLANE : (snow_packard_domain)(SNOW_PACKARD_DISC + choice % 5);
     params.rule = fuzz_below(input, 128);
     if (params.domain == SNOW_PACKARD_PLANE)
         params.rule &= 0x7E;

@@ -117,6 +117,31 @@ static snow_status aggregate_steps(bool large, const snow_options *options, snow
     return create_aggregate(6, large, options, grid);
 }
 
+static snow_status aggregate_laboratory(bool large, const snow_options *options, snow_grid **grid)
+{
+    return create_aggregate(7, large, options, grid);
+}
+
+static snow_status aggregate_space(bool large, const snow_options *options, snow_grid **grid)
+{
+    return create_aggregate(5, large, options, grid);
+}
+
+static snow_status aggregate_electrolysis(bool large, const snow_options *options, snow_grid **grid)
+{
+    return create_aggregate(11, large, options, grid);
+}
+
+static snow_status aggregate_chimney(bool large, const snow_options *options, snow_grid **grid)
+{
+    return create_aggregate(13, large, options, grid);
+}
+
+static snow_status aggregate_snowflake(bool large, const snow_options *options, snow_grid **grid)
+{
+    return create_aggregate(14, large, options, grid);
+}
+
 static snow_status aggregate_line(bool large, const snow_options *options, snow_grid **grid)
 {
     return create_aggregate(8, large, options, grid);
@@ -140,7 +165,12 @@ static snow_status aggregate_discs(bool large, const snow_options *options, snow
 const test_life test_lives[] = {
     {"aggregate, jumps", aggregate_jumps},
     {"aggregate, steps", aggregate_steps},
+    {"aggregate, laboratory", aggregate_laboratory},
+    {"aggregate, space", aggregate_space},
     {"aggregate, line", aggregate_line},
+    {"aggregate, electrolysis", aggregate_electrolysis},
+    {"aggregate, chimney", aggregate_chimney},
+    {"aggregate, snowflake", aggregate_snowflake},
     {"aggregate, shore", aggregate_shore},
     {"aggregate, clusters", aggregate_clusters},
     {"aggregate, discs", aggregate_discs},
@@ -241,6 +271,89 @@ static snow_status add_mask(snow_grid *grid, test_answer *answer)
     return snow_packard_add_zone(grid, &zone);
 }
 
+/* --- calls that tell what is kept: none may need memory --- */
+
+static snow_status steps(snow_grid *grid, test_answer *answer)
+{
+    return snow_steps(grid, (int64_t *)(void *)answer);
+}
+
+static snow_status frozen(snow_grid *grid, test_answer *answer)
+{
+    return snow_frozen(grid, (uint64_t *)(void *)answer);
+}
+
+static snow_status tip_radius(snow_grid *grid, test_answer *answer)
+{
+    return snow_tip_radius(grid, (double *)(void *)answer);
+}
+
+static snow_status frozen_bounds(snow_grid *grid, test_answer *answer)
+{
+    return snow_frozen_bounds(grid, (snow_rect *)(void *)answer);
+}
+
+static snow_status domain_bounds(snow_grid *grid, test_answer *answer)
+{
+    return snow_domain_bounds(grid, (snow_rect *)(void *)answer);
+}
+
+static snow_status domain_cells(snow_grid *grid, test_answer *answer)
+{
+    return snow_domain_cells(grid, (uint64_t *)(void *)answer);
+}
+
+static snow_status model_of(snow_grid *grid, test_answer *answer)
+{
+    return snow_model_of(grid, (snow_model *)(void *)answer);
+}
+
+static snow_status isa_of(snow_grid *grid, test_answer *answer)
+{
+    return snow_isa_of(grid, (snow_isa *)(void *)answer);
+}
+
+static snow_status packard_rule(snow_grid *grid, test_answer *answer)
+{
+    return snow_packard_rule_of(grid, (uint32_t *)(void *)answer);
+}
+
+static snow_status packard_engine(snow_grid *grid, test_answer *answer)
+{
+    return snow_packard_engine_of(grid, (snow_packard_engine *)(void *)answer);
+}
+
+static snow_status params_of(snow_grid *grid, test_answer *answer)
+{
+    snow_aggregate_params params;
+    snow_aggregate_params_init(&params, sizeof params);
+    snow_status status = snow_aggregate_params_of(grid, &params);
+    const double some[] = {params.scene, params.sticking, params.width, params.depth, (double)params.particles};
+    if (status == SNOW_OK)
+        memcpy(answer, some, sizeof some);
+    return status;
+}
+
+static snow_status particles(snow_grid *grid, test_answer *answer)
+{
+    return snow_aggregate_particles(grid, (uint64_t *)(void *)answer);
+}
+
+static snow_status walkers(snow_grid *grid, test_answer *answer)
+{
+    return snow_aggregate_walkers(grid, (uint64_t *)(void *)answer);
+}
+
+static snow_status sites(snow_grid *grid, test_answer *answer)
+{
+    return snow_aggregate_sites(grid, 0, (snow_site *)(void *)answer, 1);
+}
+
+static snow_status points(snow_grid *grid, test_answer *answer)
+{
+    return snow_aggregate_points(grid, 0, (snow_point *)(void *)answer, 1);
+}
+
 /* --- calls that ask --- */
 
 static snow_status field_copy(snow_grid *grid, test_answer *answer)
@@ -295,6 +408,49 @@ static snow_status save(snow_grid *grid, test_answer *answer)
     if (status != SNOW_OK || size > sizeof answer->bytes)
         return status;
     return snow_save(grid, answer, sizeof answer->bytes, &size);
+}
+
+/* What has been written, in a row. */
+typedef struct written {
+    test_answer bytes;
+    size_t size;
+} written;
+
+static int write_behind(void *context, const void *bytes, size_t size)
+{
+    written *so_far = context;
+    if (size <= sizeof so_far->bytes - so_far->size) {
+        memcpy(so_far->bytes.bytes + so_far->size, bytes, size);
+        so_far->size += size;
+    }
+    return 0;
+}
+
+/* A writer's caller has what came before a failure; the answer is what came to the end. */
+static snow_status save_by(snow_status (*call)(const snow_grid *grid, snow_writer write, void *context),
+                           const snow_grid *grid, test_answer *answer)
+{
+    static written so_far;
+    so_far.size = 0;
+    snow_status status = call(grid, write_behind, &so_far);
+    if (status == SNOW_OK)
+        memcpy(answer, &so_far.bytes, so_far.size);
+    return status;
+}
+
+static snow_status save_to(snow_grid *grid, test_answer *answer)
+{
+    return save_by(snow_save_to, grid, answer);
+}
+
+static snow_status save_rle_to(snow_grid *grid, test_answer *answer)
+{
+    return save_by(snow_packard_save_rle_to, grid, answer);
+}
+
+static snow_status dimension(snow_grid *grid, test_answer *answer)
+{
+    return snow_dimension(grid, (double *)(void *)answer);
 }
 
 static snow_status render(snow_grid *grid, test_answer *answer)
@@ -364,6 +520,12 @@ static snow_status aggregate_order_at(snow_grid *grid, test_answer *answer)
     return snow_aggregate_order_at(grid, (snow_site){0, 0, 0}, (int64_t *)(void *)answer);
 }
 
+static snow_status aggregate_obstacles(snow_grid *grid, test_answer *answer)
+{
+    size_t count;
+    return snow_aggregate_obstacles(grid, (snow_site *)(void *)answer, 1024, &count);
+}
+
 static snow_status aggregate_bounds(snow_grid *grid, test_answer *answer)
 {
     snow_point *corners = (snow_point *)(void *)answer;
@@ -411,6 +573,21 @@ const test_act test_acts[] = {
     {"reiter_change", reiter_change, false},
     {"packard_add_zone, sectors", add_sectors, false},
     {"packard_add_zone, mask", add_mask, false},
+    {"steps", steps, false},
+    {"frozen", frozen, false},
+    {"tip_radius", tip_radius, false},
+    {"frozen_bounds", frozen_bounds, false},
+    {"domain_bounds", domain_bounds, false},
+    {"domain_cells", domain_cells, false},
+    {"model_of", model_of, false},
+    {"isa_of", isa_of, false},
+    {"packard_rule_of", packard_rule, false},
+    {"packard_engine_of", packard_engine, false},
+    {"aggregate_params_of", params_of, false},
+    {"aggregate_particles", particles, false},
+    {"aggregate_walkers", walkers, false},
+    {"aggregate_sites", sites, false},
+    {"aggregate_points", points, false},
     {"field_copy", field_copy, false},
     {"cell_value", cell_value, false},
     {"mass", mass, false},
@@ -420,9 +597,12 @@ const test_act test_acts[] = {
     {"mass_radius", mass_radius, false},
     {"box_count", box_count, false},
     {"density", density, false},
+    {"dimension", dimension, false},
     {"save", save, false},
+    {"save_to", save_to, false},
     {"render", render, false},
     {"packard_save_rle", save_rle, false},
+    {"packard_save_rle_to", save_rle_to, false},
     {"packard_copy_bits", copy_bits, false},
     {"packard_population", population, false},
     {"reiter_conditions_of", conditions_of, false},
@@ -432,6 +612,7 @@ const test_act test_acts[] = {
     {"aggregate_clusters", aggregate_clusters_of, false},
     {"aggregate_parents", aggregate_parents, false},
     {"aggregate_order_at", aggregate_order_at, false},
+    {"aggregate_obstacles", aggregate_obstacles, false},
     {"aggregate_bounds", aggregate_bounds, false},
     {"aggregate_growth", aggregate_growth, false},
     {"aggregate_sample", aggregate_sample, false},
