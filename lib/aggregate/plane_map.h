@@ -11,6 +11,7 @@
    - for each block of 4 x 4 sites what the cells of plane_halo.h up to 8 sites wide
      say: a byte a block, in "pages" of 32 x 32 sites near which there is one;
    - for each tile, the place of a page, what larger cells say.
+   Pages and lines have numbers: a vector looks up eight at a time.
    Bytes hold classes: the least that cells say, 0 where a special site lies in the
    place. Where there is no page of a tile's own one stands that says the same
    everywhere, so that each question takes the same way: which branch it would
