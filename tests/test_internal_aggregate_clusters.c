@@ -58,6 +58,7 @@ static void scatter(account *all)
         snow_clusters_add(self, particle, site);
         write_owners(all, particle);
         merge(all, particle, snow_clusters_find_neighbours(self, particle));
+        assert_true(self->filled <= 3 * self->particles); /* the list of members has no more room */
         particle++;
     }
 }
@@ -145,6 +146,15 @@ static void drift(uint32_t particles, double density, int axes, uint64_t seed, i
     snow_clusters_end(&all.self, &all.heap);
 }
 
+/* So many merge while they are scattered that the room for members is spent before all have come. */
+static void crowded_from_the_start(void **state)
+{
+    (void)state;
+    for (uint32_t particles = 1; particles < 60; particles++)
+        for (uint64_t seed = 0; seed < 10; seed++)
+            drift(particles, 0.5, 2 + (int)(seed % 2), seed, 0);
+}
+
 static void few_in_a_wide_box(void **state)
 {
     (void)state;
@@ -178,6 +188,7 @@ static void in_space(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(crowded_from_the_start),
         cmocka_unit_test(few_in_a_wide_box),
         cmocka_unit_test(many_in_a_small_box),
         cmocka_unit_test(in_a_box_that_is_too_small_for_words),

@@ -475,7 +475,9 @@ SNOW_API snow_status snow_save_to(const snow_grid *grid, snow_writer write, void
  * Nothing in the data is trusted: damaged, truncated or hostile data give an
  * error, and never more memory is asked for than 64 MB and a hundred times the
  * size of the data, and, for a cluster of aggregation, a map of the air between
- * its particles; options->memory_limit draws the line where you want it.
+ * its particles; options->memory_limit draws the line where you want it. It
+ * holds for the grid, and for a list of a cluster's sites that is kept while
+ * they are read, each by itself: what was saved under a limit is loaded under it.
  *
  * @param buffer the data.
  * @param size bytes of data; bytes after the end of the grid are an error.

@@ -86,7 +86,7 @@ typedef struct snow_options {
     snow_allocate allocate;         /**< Every byte of the grid comes from here; NULL: malloc(). */
     snow_release release;           /**< Given if and only if allocate is; NULL: free(). */
     void *allocator_context;        /**< Handed to allocate and release. */
-    uint64_t memory_limit;          /**< Bytes that the grid may hold at once, with what loading it takes meanwhile; 0: no limit. */
+    uint64_t memory_limit;          /**< Bytes that the grid may hold at once; 0: no limit. */
     int32_t threads;                /**< Threads that share a step: 1 (default) to 1024; 0: one per processor. */
     snow_isa isa;                   /**< SNOW_ISA_AUTO (default), or forced. */
     snow_parallel_for parallel_for; /**< Runs the tasks of a step, a few for each of `threads`, in place of our threads; NULL: ours. */

@@ -259,7 +259,7 @@ static bool walk(snow_ahead *ahead, snow_party *own)
 /* Back to where the walker did what it would not have done on the cluster as it stands. */
 static void correct(snow_ahead *ahead, snow_voyage *voyage)
 {
-    if (voyage->settled == voyage->walker)
+    if (ahead->fills_nothing || voyage->settled == voyage->walker)
         return;
     uint32_t row = ahead->ground->outdated(ahead->ground, voyage->squad, voyage->lane, voyage->first, voyage->end,
                                            voyage->settled);

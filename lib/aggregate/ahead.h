@@ -68,6 +68,7 @@ typedef struct snow_ahead {
     _Atomic bool ended;
     atomic_flag settling;
     _Atomic uint64_t end; /* no walker from this number on sets out */
+    bool fills_nothing; /* walkers land and leave no trace, so that every diary holds */
     /* What follows is for who settles. */
     uint64_t repeats;
     snow_landing land;

@@ -3,39 +3,51 @@
 #include "base/floating.h"
 #include "base/sort.h"
 
-/* One walk; lost walkers send another one with the next number. */
-static snow_status probe(const snow_grid *grid, uint64_t key, uint64_t *walker, snow_site *end)
+typedef struct tally {
+    snow_heap *heap;
+    snow_table *hits;
+    bool space;
+    snow_status status;
+} tally;
+
+static bool count_end(void *context, snow_site end)
+{
+    tally *self = context;
+    self->status = snow_table_reserve(self->hits, self->heap, 1);
+    if (self->status != SNOW_OK)
+        return false;
+    ++*snow_table_at(self->hits, snow_site_pack(self->space, end));
+    return true;
+}
+
+/* One walk by single steps; lost walkers send another one with the next number. */
+static snow_status walk_once(const snow_grid *grid, uint64_t key, uint64_t *walker, snow_site *end)
 {
     enum { PATIENCE = 1 << 24 };
-    const aggregate *model = aggregate_of(grid);
     for (int32_t lost = 0; lost < PATIENCE; lost++) {
-        bool ended = true;
-        snow_status status = SNOW_OK;
-        uint64_t number = (*walker)++;
-        if (model->scene->probe != NULL) {
-            status = model->scene->probe(grid, key, number, end, &ended);
-        } else {
-            snow_stream stream = snow_stream_start(key, SNOW_RANDOM_SAMPLE, number);
-            ended = model->scene->walk(grid, &stream, end);
-        }
-        if (status != SNOW_OK || ended)
-            return status;
+        snow_stream stream = snow_stream_start(key, SNOW_RANDOM_SAMPLE, (*walker)++);
+        if (aggregate_of(grid)->scene->walk(grid, &stream, end))
+            return SNOW_OK;
     }
     return SNOW_ERROR_AGGREGATE_PATH;
 }
 
 static snow_status count_walks(const snow_grid *grid, uint64_t walks, uint64_t key, snow_heap *heap, snow_table *hits)
 {
-    bool space = aggregate_is_space(&aggregate_of(grid)->params);
+    const aggregate *model = aggregate_of(grid);
+    tally counted = {heap, hits, aggregate_is_space(&model->params), SNOW_OK};
+    if (model->scene->sample != NULL) {
+        snow_status status = model->scene->sample(grid, heap, key, walks, count_end, &counted);
+        return status != SNOW_OK ? status : counted.status;
+    }
     uint64_t walker = 0;
     for (uint64_t i = 0; i < walks; i++) {
         snow_site end;
-        snow_status status = snow_table_reserve(hits, heap, 1);
-        if (status == SNOW_OK)
-            status = probe(grid, key, &walker, &end);
+        snow_status status = walk_once(grid, key, &walker, &end);
         if (status != SNOW_OK)
             return status;
-        ++*snow_table_at(hits, snow_site_pack(space, end));
+        if (!count_end(&counted, end))
+            return counted.status;
     }
     return SNOW_OK;
 }
@@ -88,7 +100,7 @@ snow_status snow_aggregate_sample(const snow_grid *grid, uint64_t walks, uint64_
     if (status != SNOW_OK)
         return status;
     const aggregate *model = aggregate_of(grid);
-    if (model->scene->probe == NULL && model->scene->walk == NULL)
+    if (model->scene->sample == NULL && model->scene->walk == NULL)
         return SNOW_ERROR_UNSUPPORTED;
     if (walks < 1 || walks > UINT32_MAX)
         return SNOW_ERROR_RANGE;

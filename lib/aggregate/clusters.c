@@ -175,8 +175,32 @@ static void settle_origin(const clusters *self, cluster *of)
     of->origin = (snow_site){corner.x - of->least.x, corner.y - of->least.y, corner.z - of->least.z};
 }
 
+static uint32_t room_for_members(const clusters *self)
+{
+    return 3 * self->particles;
+}
+
+/* Closes the gaps between the members of the clusters that there are. */
+static void compact(clusters *self)
+{
+    uint32_t filled = 0;
+    for (uint32_t i = 0; i < self->lives; i++) {
+        cluster *it = &self->cluster[self->live[i]];
+        memcpy(self->spare + filled, self->member + it->first, it->mass * sizeof *self->spare);
+        it->first = filled;
+        it->capacity = it->mass;
+        filled += it->mass;
+    }
+    uint32_t *swap = self->member;
+    self->member = self->spare;
+    self->spare = swap;
+    self->filled = filled;
+}
+
 cluster *snow_clusters_open(clusters *self, uint32_t number, uint32_t mass, snow_site origin, double mobility)
 {
+    if (self->filled + mass > room_for_members(self))
+        compact(self); /* those that merged before the last particle came have taken room beyond their need */
     cluster *it = &self->cluster[number];
     *it = (cluster){.first = self->filled, .capacity = mass, .place = self->lives, .origin = origin};
     self->measures[number] = (cluster_measures){.drag = snow_power(mass, mobility)};
@@ -369,30 +393,13 @@ void snow_clusters_show(clusters *self)
     self->stale = false;
 }
 
-/* Closes the gaps between the members of the clusters that there are. */
-static void compact(clusters *self)
-{
-    uint32_t filled = 0;
-    for (uint32_t i = 0; i < self->lives; i++) {
-        cluster *it = &self->cluster[self->live[i]];
-        memcpy(self->spare + filled, self->member + it->first, it->mass * sizeof *self->spare);
-        it->first = filled;
-        it->capacity = it->mass;
-        filled += it->mass;
-    }
-    uint32_t *swap = self->member;
-    self->member = self->spare;
-    self->spare = swap;
-    self->filled = filled;
-}
-
 /* Room for so many members more, twice what is needed where there is that much. */
 static void widen(clusters *self, cluster *it, uint32_t more)
 {
     uint32_t wanted = it->mass + more;
     if (wanted <= it->capacity)
         return;
-    uint32_t end = 3 * self->particles;
+    uint32_t end = room_for_members(self);
     if (self->filled + wanted > end)
         compact(self);
     uint32_t capacity = wanted <= (end - self->filled) / 2 ? 2 * wanted : wanted;

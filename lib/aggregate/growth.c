@@ -269,24 +269,39 @@ snow_status snow_growth_run(snow_growth *growth, snow_heap *heap, const snow_gro
     return all.status;
 }
 
-/* Where a walker of another family of streams ends. */
-static snow_flight fly_alone(const snow_growth *growth, uint64_t key, uint64_t walker)
+/* Walkers that fill nothing. */
+typedef struct sample {
+    snow_growth_ends ends;
+    void *context;
+    uint64_t left;
+} sample;
+
+static bool end(void *context, uint64_t walker, snow_site site)
 {
-    snow_flight flight;
-    snow_flight_start(&growth->ground, &flight, key, walker);
-    snow_flight_finish(&growth->ground, &flight);
-    return flight;
+    (void)walker;
+    sample *self = context;
+    return self->ends(self->context, site) && --self->left > 0;
 }
 
-snow_site snow_growth_probe(const snow_growth *growth, uint64_t key, uint64_t walker)
+snow_status snow_growth_sample(const snow_growth *growth, snow_heap *heap, uint64_t key, uint64_t first, uint64_t count,
+                               snow_growth_ends ends, void *context)
 {
-    snow_flight flight = fly_alone(growth, key, walker);
-    return (snow_site){flight.x, flight.y, flight.z};
+    sample self = {ends, context, count};
+    snow_ahead ahead = {
+        .ground = &growth->ground, .fills_nothing = true, .land = end, .context = &self, .key = key};
+    snow_status status = snow_ahead_start(&ahead, heap, 1, is_in_space(growth));
+    if (status == SNOW_OK && count > 0)
+        snow_ahead_run(&ahead, NULL, NULL, first, count);
+    snow_ahead_end(&ahead, heap);
+    return status;
 }
 
 uint64_t snow_growth_probe_jumps(const snow_growth *growth, uint64_t key, uint64_t walker)
 {
-    return fly_alone(growth, key, walker).asked;
+    snow_flight flight;
+    snow_flight_start(&growth->ground, &flight, key, walker);
+    snow_flight_finish(&growth->ground, &flight);
+    return flight.asked;
 }
 
 uint64_t snow_growth_repeats(const snow_growth *growth)

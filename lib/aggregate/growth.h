@@ -65,10 +65,15 @@ typedef struct snow_growth_crew {
 snow_status snow_growth_run(snow_growth *growth, snow_heap *heap, const snow_growth_crew *crew, uint64_t most,
                             uint64_t *walker, const snow_growth_port *port);
 
-/* Where one walker of another family of streams ends on the cluster as it stands. */
-snow_site snow_growth_probe(const snow_growth *growth, uint64_t key, uint64_t walker);
+/* A walker has ended there, and fills nothing; false: none comes after it. */
+typedef bool (*snow_growth_ends)(void *context, snow_site site);
 
-/* How many jumps and steps that takes inside the map. */
+/* Sends out walkers of another family of streams, from number `first` on, against the cluster as it stands; they are
+   told in their order. */
+snow_status snow_growth_sample(const snow_growth *growth, snow_heap *heap, uint64_t key, uint64_t first, uint64_t count,
+                               snow_growth_ends ends, void *context);
+
+/* How many jumps and steps one of them takes inside the map. */
 uint64_t snow_growth_probe_jumps(const snow_growth *growth, uint64_t key, uint64_t walker);
 
 /* Walks that were done again because the cluster had changed under them, so far. */

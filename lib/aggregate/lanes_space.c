@@ -90,8 +90,7 @@ INLINE void look_near(const snow_space_map *map, question *q)
 INLINE void find_line(const snow_space_map *map, question *q)
 {
     lanes octant = together(bits_of(q->w, -1, 4), bits_of(q->v, -2, 2), bits_of(q->u, -3, 1));
-    lanes at = _mm256_or_si256(_mm256_slli_epi32(q->page, 3), octant);
-    q->line = look_up_some(map->links, at, q->is_close);
+    q->line = _mm256_or_si256(look_up_some((const void *)map->first_line, q->page, q->is_close), octant);
 }
 
 /* Two pairs at once. */

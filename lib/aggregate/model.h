@@ -13,6 +13,9 @@
 
 extern const snow_model_operations snow_aggregate_operations;
 
+/* Told where a sampling walk has ended; false: none comes after it. */
+typedef bool (*aggregate_ends)(void *context, snow_site site);
+
 /* What a scene must be able to do. Functions that may be NULL say so. */
 typedef struct aggregate_scene {
     /* Makes the scene's own state; seeds are placed afterwards, obstacles are in the model. */
@@ -26,8 +29,9 @@ typedef struct aggregate_scene {
     /* One walker against the cluster as it stands: where it ends, or false when
        it is lost. NULL: the scene has its own grow(). */
     bool (*walk)(const snow_grid *grid, snow_stream *stream, snow_site *end);
-    /* The same for a stream of sampling walks; NULL: walk() with that stream. */
-    snow_status (*probe)(const snow_grid *grid, uint64_t key, uint64_t walker, snow_site *end, bool *ended);
+    /* So many walks that change nothing; what is taken from the heap goes back. NULL: by walk(). */
+    snow_status (*sample)(const snow_grid *grid, snow_heap *heap, uint64_t key, uint64_t walks, aggregate_ends ends,
+                          void *context);
     /* Takes at most `most` steps, until the crystal meets `stop`; there is room
        in the lists. NULL: walkers one by one. */
     snow_status (*grow)(snow_grid *grid, int64_t most, const snow_stop *stop);

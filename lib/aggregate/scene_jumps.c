@@ -103,12 +103,11 @@ static snow_status grow(snow_grid *grid, int64_t most, const snow_stop *stop)
     return status;
 }
 
-static snow_status probe(const snow_grid *grid, uint64_t key, uint64_t walker, snow_site *end, bool *ended)
+static snow_status sample(const snow_grid *grid, snow_heap *heap, uint64_t key, uint64_t walks, aggregate_ends ends,
+                          void *context)
 {
     const uint64_t other_streams = UINT64_C(1) << 63; /* than those of the growth, also where the keys are the same */
-    *end = snow_growth_probe(jumps_of(grid)->growth, key, walker | other_streams);
-    *ended = true;
-    return SNOW_OK;
+    return snow_growth_sample(jumps_of(grid)->growth, heap, key, other_streams, walks, ends, context);
 }
 
 static void destroy(snow_grid *grid)
@@ -122,7 +121,7 @@ static void destroy(snow_grid *grid)
 const aggregate_scene snow_aggregate_jumps = {
     .create = create,
     .place = place,
-    .probe = probe,
+    .sample = sample,
     .grow = grow,
     .inside = snow_vessel_inside,
     .destroy = destroy,

@@ -239,9 +239,8 @@ snow_status snow_aggregate_load(snow_source *source, const snow_options *options
     saved_scene saved = {.obstacles = NULL};
     snow_grid *grid = NULL;
     status = load_scene(source, &heap, &saved);
-    snow_options rest = snow_options_beside(&settled, heap.used);
     if (status == SNOW_OK)
-        status = begin(&saved, &rest, &grid);
+        status = begin(&saved, options, &grid);
     if (status == SNOW_OK)
         status = load_rest(grid, source, &saved);
     snow_heap_put(&heap, saved.obstacles);
@@ -250,7 +249,6 @@ snow_status snow_aggregate_load(snow_source *source, const snow_options *options
         snow_destroy(grid);
         return status;
     }
-    grid->heap.limit = settled.memory_limit;
     *result = grid;
     return SNOW_OK;
 }

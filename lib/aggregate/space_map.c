@@ -6,12 +6,13 @@ enum {
     NEAR_REACH = SNOW_SPACE_NEAR,
     FAR_REACH = SNOW_SPACE_FAR,
     SIDES = SNOW_SPACE_SIDES,
+    LINES_OF_A_PAGE = 8,
     MOST_PAGES = 1 << 26, /* vectors look things up by 32 bits with a sign */
     MOST_LINES = 1 << 26
 };
 
 /* One more site may need so many. */
-enum { PAGES_OF_A_SITE = (SIDES + 1) * (SIDES + 1) * (SIDES + 1), LINES_OF_A_SITE = 27 };
+enum { PAGES_OF_A_SITE = (SIDES + 1) * (SIDES + 1) * (SIDES + 1), LINES_OF_A_SITE = 8 * LINES_OF_A_PAGE };
 
 static int32_t magnitude(int32_t x)
 {
@@ -122,10 +123,11 @@ static snow_status add_pages(snow_space_map *map, snow_heap *heap)
     if (near == NULL)
         return heap->refusal;
     map->near = near;
-    snow_space_links *links = snow_heap_move(heap, map->links, map->pages, room, sizeof *links);
-    if (links == NULL)
+    _Atomic uint32_t *first_line =
+        snow_heap_move(heap, (void *)map->first_line, map->pages, room, sizeof *first_line);
+    if (first_line == NULL)
         return heap->refusal;
-    map->links = links;
+    map->first_line = first_line;
     map->page_room = room;
     return SNOW_OK;
 }
@@ -178,17 +180,20 @@ static uint32_t take_page(snow_space_map *map, uint8_t class)
 {
     for (int i = 0; i < 64; i++)
         atomic_init(&map->near[map->pages].block[i], class);
-    for (int i = 0; i < 8; i++)
-        atomic_init(&map->links[map->pages].line[i], 0);
+    atomic_init(&map->first_line[map->pages], 0);
     return map->pages++;
 }
 
-static uint32_t take_line(snow_space_map *map)
+/* Those of a page. */
+static uint32_t take_lines(snow_space_map *map)
 {
-    snow_space_line_start(&map->line[map->lines]);
+    uint32_t first = map->lines;
+    for (int i = 0; i < LINES_OF_A_PAGE; i++)
+        snow_space_line_start(&map->line[first + (uint32_t)i]);
     if (map->keeps_matter)
-        memset(&map->matter[map->lines], 0, sizeof *map->matter);
-    return map->lines++;
+        memset(&map->matter[first], 0, LINES_OF_A_PAGE * sizeof *map->matter);
+    map->lines += LINES_OF_A_PAGE;
+    return first;
 }
 
 static uint8_t class_of(const snow_exits *exits, int32_t free)
@@ -232,7 +237,7 @@ snow_status snow_space_map_start(snow_space_map *map, snow_heap *heap, const sno
         snow_space_map_end(map, heap);
         return status;
     }
-    take_line(map); /* where nothing is near */
+    take_lines(map); /* where nothing is near */
     make_classes(map, exits);
     make_near(map);
     snow_space_prints_make(map->prints);
@@ -243,7 +248,7 @@ void snow_space_map_end(snow_space_map *map, snow_heap *heap)
 {
     snow_heap_put(heap, map->matter);
     snow_heap_put(heap, map->line);
-    snow_heap_put(heap, map->links);
+    snow_heap_put(heap, (void *)map->first_line);
     snow_heap_put(heap, map->near);
     snow_heap_put(heap, map->prints);
     uncover(map, heap);
@@ -286,16 +291,16 @@ static uint32_t page_of(snow_space_map *map, uint32_t tile)
     return page;
 }
 
-/* The line of a tile's own page, to be written to. */
-static uint32_t line_of(snow_space_map *map, uint32_t tile, uint32_t octant)
+/* The first line of a tile's own page, to be written to. */
+static uint32_t lines_of(snow_space_map *map, uint32_t tile)
 {
-    _Atomic uint32_t *link = &map->links[page_of(map, tile)].line[octant];
-    uint32_t line = SNOW_MAP_GET(*link);
-    if (line == 0) {
-        line = take_line(map);
-        SNOW_MAP_PUT_ADDRESS(*link, line);
+    uint32_t page = page_of(map, tile);
+    uint32_t first = SNOW_MAP_GET(map->first_line[page]);
+    if (first == 0) {
+        first = take_lines(map);
+        SNOW_MAP_PUT_ADDRESS(map->first_line[page], first);
     }
-    return line;
+    return first;
 }
 
 static bool holds_special(const snow_space_map *map, uint32_t tile)
@@ -507,7 +512,7 @@ static void lower_lines(snow_space_map *map, int32_t u, int32_t v, int32_t w)
             uint32_t row = tile_at(map, 0, j / 2, k / 2);
             for (int32_t i = all.first[0]; i <= all.last[0]; i++) {
                 uint32_t tile = row + (uint32_t)i / 2;
-                uint32_t line = line_of(map, tile, snow_space_octant((uint32_t)i, (uint32_t)j, (uint32_t)k));
+                uint32_t line = lines_of(map, tile) + snow_space_octant((uint32_t)i, (uint32_t)j, (uint32_t)k);
                 if (map->lower(&map->line[line], print, i - floor_of(u, 8), rows, layers))
                     has_changed(map, tile);
             }
@@ -518,7 +523,7 @@ static void lower_lines(snow_space_map *map, int32_t u, int32_t v, int32_t w)
 static void keep_matter(snow_space_map *map, uint32_t u, uint32_t v, uint32_t w, bool obstacle)
 {
     uint32_t tile = snow_space_map_number(map, u / 16, v / 16, w / 16);
-    snow_space_matter *matter = &map->matter[line_of(map, tile, snow_space_octant(u / 8, v / 8, w / 8))];
+    snow_space_matter *matter = &map->matter[lines_of(map, tile) + snow_space_octant(u / 8, v / 8, w / 8)];
     uint32_t place = snow_space_place(u, v, w);
     uint32_t block = snow_space_octant(u / 4, v / 4, w / 4);
     _Atomic uint32_t *word = &(obstacle ? matter->obstacle : matter->filled)[block][place / 32];

@@ -32,11 +32,6 @@ typedef union snow_space_near {
     _Atomic uintptr_t word[64 / sizeof(uintptr_t)];
 } snow_space_near;
 
-/* The lines of a page; 0, where nothing is near. */
-typedef struct snow_space_links {
-    _Alignas(32) _Atomic uint32_t line[8];
-} snow_space_links;
-
 /* What is on the sites of a line: a bit for each site of a block. */
 typedef struct snow_space_matter {
     _Atomic uint32_t filled[8][2];
@@ -58,7 +53,7 @@ typedef struct snow_space_map {
     uint8_t *most;          /* nothing is greater in a tile's own page; 255 if it has none */
     /* Pages. */
     snow_space_near *near;
-    snow_space_links *links;
+    _Atomic uint32_t *first_line; /* of the eight of a page; where nothing is near pages share eight */
     uint32_t pages, page_room;
     /* Lines. */
     snow_space_line *line;
@@ -108,6 +103,12 @@ static inline uint32_t snow_space_map_find(const snow_space_map *map, int32_t ti
     return tile < 0 ? SNOW_SPACE_OUTSIDE : page;
 }
 
+/* The line of a page that tells about a site. */
+static inline uint32_t snow_space_map_line(const snow_space_map *map, uint32_t page, uint32_t u, uint32_t v, uint32_t w)
+{
+    return SNOW_MAP_GET_ADDRESS(map->first_line[page]) + snow_space_octant(u / 8, v / 8, w / 8);
+}
+
 /* Whether an answer there may have changed since that landing, one of the last 2^31. */
 static inline bool snow_space_map_has_changed(const snow_space_map *map, int32_t tile, uint64_t since)
 {
@@ -123,7 +124,7 @@ static inline uint32_t snow_space_map_look(const snow_space_map *map, uint32_t p
     uint32_t near = SNOW_MAP_GET(map->near[page].block[snow_space_place(u / 4, v / 4, w / 4)]);
     if (near >= SNOW_SPACE_LOOK)
         return near;
-    uint32_t line = SNOW_MAP_GET_ADDRESS(map->links[page].line[snow_space_octant(u / 8, v / 8, w / 8)]);
+    uint32_t line = snow_space_map_line(map, page, u, v, w);
     return snow_space_line_look(&map->line[line], u, v, w);
 }
 
@@ -134,7 +135,7 @@ static inline int snow_space_map_matter(const snow_space_map *map, int32_t x, in
     uint32_t v = (uint32_t)y;
     uint32_t w = (uint32_t)z;
     uint32_t page = snow_space_map_find(map, snow_space_map_tile(map, x, y, z));
-    uint32_t line = SNOW_MAP_GET_ADDRESS(map->links[page].line[snow_space_octant(u / 8, v / 8, w / 8)]);
+    uint32_t line = snow_space_map_line(map, page, u, v, w);
     const snow_space_matter *matter = &map->matter[line];
     uint32_t block = snow_space_octant(u / 4, v / 4, w / 4);
     uint32_t half = w / 2 % 2;

@@ -34,11 +34,3 @@ snow_status snow_options_settle(const snow_options *caller, snow_options *settle
         settled->isa = snow_cpu_best();
     return SNOW_OK;
 }
-
-snow_options snow_options_beside(const snow_options *settled, uint64_t used)
-{
-    snow_options rest = *settled;
-    if (settled->memory_limit != 0) /* 0 would be none at all */
-        rest.memory_limit = settled->memory_limit > used ? settled->memory_limit - used : 1;
-    return rest;
-}

@@ -8,7 +8,4 @@
    threads is then at least 1, and isa is one that is available. */
 snow_status snow_options_settle(const snow_options *caller, snow_options *settled);
 
-/* For a grid that is made while so many bytes beside it are in use: the limit is what they leave. */
-snow_options snow_options_beside(const snow_options *settled, uint64_t used);
-
 #endif

@@ -1,5 +1,7 @@
 #include "base/stream.h"
 
+#include "base/options.h"
+
 #include <string.h>
 
 static snow_status make_room(snow_text *text, size_t *capacity)
@@ -36,11 +38,15 @@ static snow_status read_all(snow_text *text, snow_reader read, void *context)
     }
 }
 
-snow_status snow_text_read(snow_text *text, snow_reader read, void *context, const snow_options *settled)
+snow_status snow_text_read(snow_text *text, snow_reader read, void *context, const snow_options *options)
 {
+    snow_options settled;
+    snow_status status = snow_options_settle(options, &settled);
     *text = (snow_text){.bytes = NULL};
-    snow_heap_start(&text->heap, settled);
-    snow_status status = read_all(text, read, context);
+    if (status != SNOW_OK)
+        return status;
+    snow_heap_start(&text->heap, &settled);
+    status = read_all(text, read, context);
     if (status != SNOW_OK)
         snow_text_end(text);
     return status;

@@ -13,8 +13,8 @@ typedef struct snow_text {
     snow_heap heap; /* that the bytes come from */
 } snow_text;
 
-/* Reads to the end, into memory as the settled options want it. On failure the text is empty. */
-snow_status snow_text_read(snow_text *text, snow_reader read, void *context, const snow_options *settled);
+/* Reads to the end, into memory as the options want it. On failure the text is empty. */
+snow_status snow_text_read(snow_text *text, snow_reader read, void *context, const snow_options *options);
 void snow_text_end(snow_text *text);
 
 /* Puts into a buffer what `save` writes, on the terms of snow_save(). */

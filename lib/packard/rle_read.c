@@ -1,6 +1,5 @@
 /* Patterns in run-length encoding, in. */
 #include "base/floating.h"
-#include "base/options.h"
 #include "base/stream.h"
 #include "base/structs.h"
 #include "packard/rle.h"
@@ -272,16 +271,10 @@ snow_status snow_packard_load_rle_from(snow_reader read, void *context, const sn
     if (read == NULL || grid == NULL)
         return SNOW_ERROR_NULL;
     snow_text text;
-    snow_options settled;
-    snow_status status = snow_options_settle(options, &settled);
-    if (status == SNOW_OK)
-        status = snow_text_read(&text, read, context, &settled);
+    snow_status status = snow_text_read(&text, read, context, options);
     if (status != SNOW_OK)
         return status;
-    snow_options rest = snow_options_beside(&settled, text.heap.used);
-    status = snow_packard_load_rle(text.bytes, text.size, params, &rest, grid);
+    status = snow_packard_load_rle(text.bytes, text.size, params, options, grid);
     snow_text_end(&text);
-    if (status == SNOW_OK)
-        (*grid)->heap.limit = settled.memory_limit;
     return status;
 }
