@@ -11,21 +11,54 @@ enum { LOOKS_BEFORE_YIELD = 200 };
 /* So many rows of diaries; a walker that asks more waits for its turn to land. */
 enum { PLANE_ROWS = 256, SPACE_ROWS = 512 };
 
-/* So many walkers of a thread are on their way; so many more may have landed and wait for those before them. */
-enum { SQUADS = 2, WAITING = 16, ABREAST_IN_TURN = 6, WAITING_IN_TURN = 6 };
+/* Walkers of a thread: so many are on their way, in squads, and so many more may have landed and wait for those
+   before them. */
+typedef struct formation {
+    int squads, abreast, waiting;
+} formation;
+
+static const formation in_turn = {1, 6, 6};
+static const formation small = {2, SNOW_LANES, 16};
+static const formation medium = {2, SNOW_LANES, 32};
+static const formation large = {3, SNOW_LANES, 48};
+static const formation largest = {SNOW_SQUADS, SNOW_LANES, 64};
+
+/* The larger the cluster the longer each waits for memory, and the less they walk in vain. */
+static const formation *formation_for(const snow_ground *ground)
+{
+    int32_t rim = ground->source.rim;
+    if (ground->walk == snow_squads_walk_in_turn)
+        return &in_turn;
+    if (ground->exits.lattice == SNOW_AGGREGATE_CUBIC)
+        return rim < 150 ? &small : &large;
+    return rim < 320 ? &small : rim < 1024 ? &medium : rim < 4096 ? &large : &largest;
+}
+
+static uint64_t window_of(const formation *walkers, int threads)
+{
+    return (uint64_t)threads * (uint64_t)(walkers->squads * walkers->abreast + walkers->waiting);
+}
+
+/* When nobody is out. */
+static void arrange(snow_ahead *ahead)
+{
+    const formation *walkers = formation_for(ahead->ground);
+    ahead->squads = walkers->squads;
+    ahead->abreast = walkers->abreast;
+    ahead->window = window_of(walkers, ahead->threads);
+}
 
 snow_status snow_ahead_start(snow_ahead *ahead, snow_heap *heap, int threads, bool space)
 {
-    if (ahead->window > 0)
+    const formation *most = ahead->ground->walk == snow_squads_walk_in_turn ? &in_turn : &largest;
+    if (ahead->most_squads >= most->squads)
         return SNOW_OK;
-    bool in_turn = ahead->ground->walk == snow_squads_walk_in_turn;
-    int squads = in_turn ? 1 : SQUADS;
-    int abreast = in_turn ? ABREAST_IN_TURN : SNOW_LANES;
-    int waiting = in_turn ? WAITING_IN_TURN : WAITING;
-    uint64_t window = (uint64_t)threads * (uint64_t)(squads * abreast + waiting);
+    snow_ahead_end(ahead, heap);
     uint32_t room = space ? SPACE_ROWS : PLANE_ROWS;
-    size_t rings = (size_t)threads * (size_t)squads;
-    ahead->voyage = snow_heap_get(heap, window, sizeof *ahead->voyage);
+    size_t rings = (size_t)threads * (size_t)most->squads;
+    ahead->threads = threads;
+    ahead->voyages = window_of(most, threads);
+    ahead->voyage = snow_heap_get(heap, ahead->voyages, sizeof *ahead->voyage);
     ahead->party = snow_heap_get(heap, (size_t)threads, sizeof *ahead->party);
     ahead->rows = snow_heap_get(heap, rings * room, sizeof *ahead->rows);
     ahead->tiles = snow_heap_get(heap, rings * room, sizeof *ahead->tiles);
@@ -36,17 +69,15 @@ snow_status snow_ahead_start(snow_ahead *ahead, snow_heap *heap, int threads, bo
         return heap->refusal;
     }
     for (size_t i = 0; i < rings; i++) {
-        snow_squad *squad = &ahead->party[i / (size_t)squads].squad[i % (size_t)squads];
+        snow_squad *squad = &ahead->party[i / (size_t)most->squads].squad[i % (size_t)most->squads];
         squad->rows = ahead->rows + i * room;
         squad->tiles = ahead->tiles + i * room;
         squad->heights = space ? ahead->heights + i * room : NULL;
         squad->room = room;
     }
     atomic_flag_clear(&ahead->settling);
-    ahead->window = window;
-    ahead->threads = threads;
-    ahead->squads = squads;
-    ahead->abreast = abreast;
+    ahead->most_squads = most->squads;
+    arrange(ahead);
     return SNOW_OK;
 }
 
@@ -62,7 +93,9 @@ void snow_ahead_end(snow_ahead *ahead, snow_heap *heap)
     ahead->rows = NULL;
     ahead->party = NULL;
     ahead->voyage = NULL;
-    ahead->window = 0;
+    ahead->voyages = 0;
+    ahead->threads = 0;
+    ahead->most_squads = 0;
 }
 
 static void wait_a_little(int *looks)
@@ -86,16 +119,18 @@ void snow_ahead_pause(snow_ahead *ahead)
 /* Nobody is out any more. */
 static void forget_all(snow_ahead *ahead)
 {
-    for (uint64_t i = 0; i < ahead->window; i++)
+    for (uint64_t i = 0; i < ahead->voyages; i++)
         atomic_store_explicit(&ahead->voyage[i].done, 0, memory_order_relaxed);
     for (int thread = 0; thread < ahead->threads; thread++) {
         snow_party *party = &ahead->party[thread];
-        for (int i = 0; i < ahead->squads; i++) {
+        for (int i = 0; i < ahead->most_squads; i++) {
             party->squad[i].busy = 0;
             party->squad[i].key = ahead->key;
             party->queue[i].oldest = party->queue[i].next;
         }
     }
+    if (ahead->threads > 0)
+        arrange(ahead);
 }
 
 void snow_ahead_call_back(snow_ahead *ahead)
@@ -127,7 +162,7 @@ static bool take(snow_ahead *ahead, uint64_t *walker)
 
 static void set_out(snow_ahead *ahead, snow_party *own, int i, int lane, uint64_t walker)
 {
-    snow_voyage *voyage = &ahead->voyage[walker % ahead->window];
+    snow_voyage *voyage = &ahead->voyage[walker % ahead->voyages];
     snow_squad *squad = &own->squad[i];
     snow_queue *queue = &own->queue[i];
     voyage->walker = walker;
@@ -256,7 +291,7 @@ static void settle_one(snow_ahead *ahead, snow_voyage *voyage, uint64_t walker)
 /* The next one to land, if it has come so far. */
 static snow_voyage *due(const snow_ahead *ahead, uint64_t walker)
 {
-    snow_voyage *voyage = &ahead->voyage[walker % ahead->window];
+    snow_voyage *voyage = &ahead->voyage[walker % ahead->voyages];
     return atomic_load(&voyage->done) == walker + 1 ? voyage : NULL;
 }
 

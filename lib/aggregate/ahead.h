@@ -51,14 +51,16 @@ typedef bool (*snow_landing)(void *context, uint64_t walker, snow_site site);
 
 typedef struct snow_ahead {
     snow_voyage *voyage; /* a ring */
+    uint64_t voyages;
     snow_row *rows;
     snow_tiles *tiles;
     snow_heights *heights;
     snow_party *party;
-    uint64_t window; /* so many walkers are out at a time; 0: not started */
     int threads;
-    int squads; /* of each thread */
-    int abreast; /* so many of a squad */
+    int most_squads; /* there is room for so many of each thread; 0: not started */
+    int squads;      /* so many of them walk */
+    int abreast;     /* so many of a squad */
+    uint64_t window; /* so many walkers are out at a time */
     _Atomic uint64_t next;
     _Atomic uint64_t settled;
     _Atomic int walking;
@@ -77,7 +79,7 @@ typedef struct snow_ahead {
     uint64_t key;
 } snow_ahead;
 
-/* Nothing happens when it was started before. */
+/* Nothing happens when there is room from before. */
 snow_status snow_ahead_start(snow_ahead *ahead, snow_heap *heap, int threads, bool space);
 void snow_ahead_end(snow_ahead *ahead, snow_heap *heap);
 

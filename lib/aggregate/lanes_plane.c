@@ -258,8 +258,8 @@ INLINE void walk(const snow_ground *ground, bool hexagonal, snow_squad *squads, 
 INLINE void walk_together(const snow_ground *ground, bool hexagonal, snow_squad *squads, int count)
 {
     switch (count) {
-    case 1: walk(ground, hexagonal, squads, 1); break;
     case 2: walk(ground, hexagonal, squads, 2); break;
+    case 3: walk(ground, hexagonal, squads, 3); break;
     default: walk(ground, hexagonal, squads, SNOW_SQUADS); break;
     }
 }

@@ -285,8 +285,8 @@ INLINE void walk(const snow_ground *ground, snow_squad *squads, int count)
 void SNOW_NAME(snow_squads_walk_space_, SNOW_KERNEL)(const snow_ground *ground, snow_squad *squads, int count)
 {
     switch (count) {
-    case 1: walk(ground, squads, 1); break;
     case 2: walk(ground, squads, 2); break;
+    case 3: walk(ground, squads, 3); break;
     default: walk(ground, squads, SNOW_SQUADS); break;
     }
 }

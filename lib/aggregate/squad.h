@@ -8,7 +8,7 @@
 
 #include "aggregate/flight.h"
 
-enum { SNOW_LANES = 8, SNOW_SQUADS = 3 /* that walk together, at most */ };
+enum { SNOW_LANES = 8, SNOW_SQUADS = 4 /* that walk together, at most */ };
 
 /* What they asked, what they were told, and how many numbers they had used: while
    the same questions have the same answers, walkers walk the same way. */
