@@ -515,7 +515,8 @@ static void add_print(snow_plane_map *map, uint32_t u, uint32_t v, uint32_t pair
         SNOW_MAP_PUT(row[i], now);
         changed |= now ^ known;
     }
-    if (changed != 0)
+    /* Where matter is kept walkers are told of what is filled, too. */
+    if (changed != 0 || map->keeps_matter)
         stamp(map, tile);
 }
 
