@@ -441,7 +441,9 @@ snow_status snow_plane_map_widen(snow_plane_map *map, snow_heap *heap, snow_plan
 static void add_print(snow_plane_map *map, uint32_t u, uint32_t v, uint32_t pairs, const uint64_t *print)
 {
     size_t tile = tile_at(map, u / TILE, v / TILE);
-    if (snow_plane_line_lower(&map->line[line_of(map, tile, u, v)], v, pairs, print))
+    bool lowered = snow_plane_line_lower(&map->line[line_of(map, tile, u, v)], v, pairs, print);
+    /* Where matter is kept walkers are told of what is filled, too. */
+    if (lowered || map->keeps_matter)
         stamp(map, tile);
 }
 

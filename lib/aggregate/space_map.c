@@ -514,7 +514,8 @@ static void lower_lines(snow_space_map *map, int32_t u, int32_t v, int32_t w)
             for (int32_t i = all.first[0]; i <= all.last[0]; i++) {
                 uint32_t tile = row + (uint32_t)i / 2;
                 uint32_t line = lines_of(map, tile) + snow_space_octant((uint32_t)i, (uint32_t)j, (uint32_t)k);
-                if (map->lower(&map->line[line], print, i - floor_of(u, 8), rows, layers))
+                /* Where matter is kept walkers are told of what is filled, too. */
+                if (map->lower(&map->line[line], print, i - floor_of(u, 8), rows, layers) || map->keeps_matter)
                     has_changed(map, tile);
             }
         }
