@@ -249,6 +249,43 @@ static void the_laboratory_ends_at_its_radius(void **state)
     snow_destroy(grid);
 }
 
+static void check_sites_differ(const snow_grid *grid)
+{
+    uint64_t count = 0;
+    assert_ok(snow_aggregate_particles(grid, &count));
+    snow_site *sites = calloc((size_t)count, sizeof *sites);
+    assert_non_null(sites);
+    assert_ok(snow_aggregate_sites(grid, 0, sites, (size_t)count));
+    for (size_t i = 0; i < count; i++)
+        for (size_t k = 0; k < i; k++)
+            assert_true(sites[i].x != sites[k].x || sites[i].y != sites[k].y || sites[i].z != sites[k].z);
+    free(sites);
+}
+
+/* Past the rim it grows on until particles are where walkers set out: none sets out on a particle. */
+static void the_laboratory_is_full_at_its_circle(void **state)
+{
+    (void)state;
+    for (uint64_t seed = 0; seed < 48; seed++) {
+        snow_aggregate_params params = aggregate_scene(SNOW_AGGREGATE_LABORATORY);
+        params.lattice = (snow_aggregate_lattice)(SNOW_AGGREGATE_SQUARE + seed % 3);
+        params.contact = seed / 3 % 2 == 0 ? SNOW_AGGREGATE_ARRIVAL : SNOW_AGGREGATE_ENTRY;
+        params.engine = seed / 6 % 2 == 0 ? SNOW_AGGREGATE_ENGINE_AUTO : SNOW_AGGREGATE_ENGINE_STEPS;
+        params.launch_radius = 6;
+        params.end_radius = 4;
+        params.random_seed = seed;
+        snow_stop stop = stop_after(-1);
+        stop.rim = 0;
+        snow_grid *grid;
+        snow_summary summary = run_to(&params, &stop, &grid);
+        assert_int_equal(SNOW_STOP_FULL, summary.reason);
+        assert_true(summary.tip_radius >= 5 && summary.tip_radius < 7);
+        assert_status(SNOW_ERROR_FULL, snow_step(grid, 1));
+        check_sites_differ(grid);
+        snow_destroy(grid);
+    }
+}
+
 typedef struct observer {
     int64_t calls;
     int64_t between; /* of them, at a step count that is no multiple */
@@ -523,6 +560,7 @@ int main(void)
         cmocka_unit_test(runs_end_at_a_height),
         cmocka_unit_test(runs_end_at_the_steps),
         cmocka_unit_test(the_laboratory_ends_at_its_radius),
+        cmocka_unit_test(the_laboratory_is_full_at_its_circle),
         cmocka_unit_test(a_callback_ends_a_run_and_it_can_go_on),
         cmocka_unit_test(a_callback_is_called_while_walkers_are_lost),
         cmocka_unit_test(a_time_budget_ends_a_run_and_it_can_go_on),

@@ -51,7 +51,7 @@ extern "C" {
 /** @brief Where walkers start, how they move and what stops them. */
 typedef enum snow_aggregate_scene {
     SNOW_AGGREGATE_WITTEN_SANDER = 1,   /**< Seeds in the unbounded plane or space; walkers come from infinity. Square, hexagonal, cubic. */
-    SNOW_AGGREGATE_LABORATORY = 2,      /**< The same with the sheet's rules: launched on the circle (sphere) of `launch_radius` round the origin, dropped beyond three times that, at the rim when the cluster reaches `end_radius`. Square, hexagonal, cubic. */
+    SNOW_AGGREGATE_LABORATORY = 2,      /**< The same with the sheet's rules: launched on the circle (sphere) of `launch_radius` round the origin, dropped beyond three times that, at the rim when the cluster reaches `end_radius`, full when it comes within one site of that circle. Square, hexagonal, cubic. */
     SNOW_AGGREGATE_LINE = 3,            /**< Trees on the floor of a vessel of `width` × (`depth` ×) `height` sites; walkers start uniformly on its top row (layer), walls and lid reflect. Square, hexagonal, cubic. */
     SNOW_AGGREGATE_ELECTROLYSIS = 4,    /**< Ions fall from the top row of a `width` × `height` bath towards the cathode below it, down-left, down or down-right with equal chance. Square. */
     SNOW_AGGREGATE_SHORE = 5,           /**< Waves come down in the same three moves and wash away land: `width` × `height` cells, each with its own hardness. Square. */

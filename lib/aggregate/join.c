@@ -14,10 +14,14 @@ static void look_at_rim(const aggregate *model, snow_census *census, snow_site s
 {
     const double reach = aggregate_reach(&model->params);
     const double end = model->params.end_radius;
+    const double clear = model->params.launch_radius - 1; /* walkers set out farther out */
     const snow_aggregate_params *params = &model->params;
     int32_t last_row = params->height - 1;
     switch (params->scene) {
-    case SNOW_AGGREGATE_LABORATORY: census->rim |= census->tip_square >= end * end; break;
+    case SNOW_AGGREGATE_LABORATORY:
+        census->rim |= census->tip_square >= end * end;
+        census->full |= census->tip_square >= clear * clear;
+        break;
     case SNOW_AGGREGATE_LINE:
         census->rim |= aggregate_height(model, site) >= last_row;
         census->full |= census->rim;
