@@ -199,6 +199,18 @@ INLINE wide fetch_from(const void *array, wide index)
 }
 #endif
 
+/* The elements of an array of 32 bits each. */
+INLINE lanes look_up(const void *array, lanes index)
+{
+    return _mm256_i32gather_epi32(array, index, 4);
+}
+
+/* The same where a lane's mask is set; 0 elsewhere. */
+INLINE lanes look_up_some(const void *array, lanes index, lanes mask)
+{
+    return _mm256_mask_i32gather_epi32(_mm256_setzero_si256(), array, index, mask, 4);
+}
+
 /* Philox, as in draws_kernel.c: the block that each comes to. */
 INLINE void draw(const uint64_t *key, const snow_lanes *walkers, wide number[2])
 {
@@ -234,6 +246,37 @@ INLINE lanes class_near(const snow_exits *exits, lanes clear, lanes where)
     lanes part = _mm256_min_epu32(_mm256_sub_epi32(bits, all(127 << 3)), all(SNOW_EXIT_OCTAVES * SNOW_EXIT_PARTS - 1));
     lanes four = _mm256_mask_i32gather_epi32(_mm256_setzero_si256(), (const void *)exits->class_from, part, where, 1);
     return _mm256_and_si256(four, all(255));
+}
+
+/* Of the column that a pick has found: snow_exit_table_pick(). */
+INLINE lanes outcome_of(wide pick, wide exit)
+{
+    lanes place = lower_halves(pick);
+    lanes is_from = _mm256_cmpeq_epi32(_mm256_max_epu32(place, lower_halves(exit)), place);
+    lanes outcome = _mm256_srlv_epi32(lower_halves(upper_to_lower(exit)), _mm256_and_si256(is_from, all(16)));
+    return _mm256_and_si256(outcome, all(0xFFFF));
+}
+
+/* So many blocks can be used before a ring is full. */
+static inline uint32_t blocks_left(const snow_squad *squads, int count)
+{
+    uint32_t least = UINT32_MAX;
+    for (int i = 0; i < count; i++) {
+        uint32_t rows = squads[i].stop - squads[i].next;
+        least = rows < least ? rows : least;
+    }
+    return least / 2;
+}
+
+/* Eight rows of a column: which of them may have changed, as the stamps of tiles say. */
+INLINE uint32_t find_changed(const uint32_t *stamp, const snow_squad *squad, int lane, lanes row, lanes counts,
+                             uint32_t since)
+{
+    lanes tile = look_up(squad->tiles->tile + lane, _mm256_slli_epi32(row, 3));
+    lanes can_change = _mm256_andnot_si256(tile, counts); /* the sign tells */
+    lanes changed = _mm256_mask_i32gather_epi32(all(since), (const int *)stamp, tile, can_change, 4);
+    lanes is_newer = _mm256_cmpgt_epi32(_mm256_sub_epi32(changed, all(since)), _mm256_setzero_si256());
+    return (uint32_t)_mm256_movemask_ps(_mm256_castsi256_ps(is_newer));
 }
 
 #endif

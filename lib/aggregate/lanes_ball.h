@@ -146,7 +146,8 @@ typedef struct outsiders {
 } outsiders;
 
 /* The others leave the balls round them, if these are large enough. The mask of those who have moved. */
-static __attribute__((noinline)) lanes throw_all(const snow_source_of_walkers *source, outsiders *who, const wide number[2])
+static __attribute__((noinline)) lanes throw_all(const snow_source_of_walkers *source, outsiders *who,
+                                                 const wide number[2])
 {
     lanes is_back = is_back_from_afar(who->x, who->comes_in);
     bool some_are_back = any(is_back);

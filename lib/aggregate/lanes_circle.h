@@ -51,7 +51,8 @@ typedef struct thrown {
 } thrown;
 
 /* snow_source_come_in(), and snow_source_circle() from the origin */
-INLINE cell throw_from(const snow_source_of_walkers *source, bool hexagonal, bool some_are_back, thrown who, words number)
+INLINE cell throw_from(const snow_source_of_walkers *source, bool hexagonal, bool some_are_back, thrown who,
+                       words number)
 {
     reals blur = blur_of(number);
     vector unit = direction_of(number);

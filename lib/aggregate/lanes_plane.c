@@ -45,7 +45,7 @@ INLINE lanes told_by(const question *q)
 
 INLINE void find_page(const snow_plane_map *map, question *q)
 {
-    q->page = _mm256_i32gather_epi32((const int *)map->tile, q->tile, 4);
+    q->page = look_up((const void *)map->tile, q->tile);
 }
 
 INLINE void look_near(const snow_plane_map *map, question *q)
@@ -58,25 +58,19 @@ INLINE void look_near(const snow_plane_map *map, question *q)
     q->is_close = _mm256_cmpgt_epi32(all(2), q->near);
 }
 
-/* Elements of an array of 32 bits each where a lane's mask is set; 0 elsewhere. */
-INLINE lanes fetch_close(const void *array, lanes index, const question *q)
-{
-    return _mm256_mask_i32gather_epi32(_mm256_setzero_si256(), array, index, q->is_close, 4);
-}
-
 INLINE void find_line(const snow_plane_map *map, question *q)
 {
     lanes row = _mm256_and_si256(_mm256_srli_epi32(q->v, 3), all(2));
     lanes column = _mm256_and_si256(_mm256_srli_epi32(q->u, 4), all(1));
     lanes place = _mm256_or_si256(_mm256_slli_epi32(q->page, 2), _mm256_or_si256(row, column));
-    q->line = fetch_close(map->quarters, place, q);
+    q->line = look_up_some(map->quarters, place, q->is_close);
 }
 
 INLINE void look_closely(const snow_plane_map *map, question *q)
 {
     lanes row = _mm256_or_si256(_mm256_slli_epi32(q->line, 4), _mm256_and_si256(q->v, all(15)));
     lanes column = _mm256_slli_epi32(_mm256_and_si256(q->u, all(15)), 1);
-    lanes code = _mm256_srlv_epi32(fetch_close(map->line, row, q), column);
+    lanes code = _mm256_srlv_epi32(look_up_some(map->line, row, q->is_close), column);
     lanes exact = _mm256_and_si256(_mm256_andnot_si256(code, all(3)), q->is_close);
     q->seen = choose(q->inside, _mm256_max_epu32(q->near, exact), all(SNOW_MAP_BEYOND));
 }
@@ -104,7 +98,7 @@ INLINE lanes class_outside(const snow_ground *ground, bool hexagonal, const ques
 INLINE void find_table(const snow_ground *ground, bool hexagonal, question *q)
 {
     q->class = choose(q->inside, q->seen, class_outside(ground, hexagonal, q));
-    lanes place = _mm256_i32gather_epi32((const int *)ground->exits.place, q->class, 4);
+    lanes place = look_up(ground->exits.place, q->class);
     q->radius = _mm256_and_si256(place, all((1u << SNOW_EXIT_RADIUS_BITS) - 1));
     q->first = _mm256_srli_epi32(place, SNOW_EXIT_RADIUS_BITS);
 }
@@ -117,18 +111,10 @@ INLINE void find_exit(const snow_exits *exits, question *q, wide number)
     q->exit = fetch_from(exits->exit, plus(upper_to_lower(q->pick), widened(q->first)));
 }
 
-INLINE lanes offset_of(const question *q)
-{
-    lanes place = lower_halves(q->pick);
-    lanes is_from = _mm256_cmpeq_epi32(_mm256_max_epu32(place, lower_halves(q->exit)), place);
-    lanes outcome = _mm256_srlv_epi32(lower_halves(upper_to_lower(q->exit)), _mm256_and_si256(is_from, all(16)));
-    return _mm256_and_si256(outcome, all(0xFFFF));
-}
-
 INLINE void jump_square(question *q, wide number)
 {
     lanes symmetry = lower_halves(number);
-    lanes along = signed_by(offset_of(q), _mm256_slli_epi32(symmetry, 31));
+    lanes along = signed_by(outcome_of(q->pick, q->exit), _mm256_slli_epi32(symmetry, 31));
     lanes across = signed_by(q->radius, _mm256_slli_epi32(symmetry, 30));
     lanes swaps = _mm256_srai_epi32(_mm256_slli_epi32(symmetry, 29), 31);
     q->x = _mm256_add_epi32(q->x, choose(swaps, across, along));
@@ -148,7 +134,7 @@ INLINE void jump_hexagonal(question *q, wide number)
     const lanes side_q = _mm256_setr_epi32(-1, -1, 0, 1, 1, 0, 0, 0);
     const lanes side_r = _mm256_setr_epi32(1, 0, -1, -1, 0, 1, 0, 0);
     lanes side = lower_halves(upper_to_lower(product(number, every(6))));
-    lanes offset = offset_of(q);
+    lanes offset = outcome_of(q->pick, q->exit);
     lanes x = _mm256_add_epi32(directed(q->radius, corner_q, side), directed(offset, side_q, side));
     q->x = _mm256_add_epi32(q->x, x);
     lanes y = _mm256_add_epi32(directed(q->radius, corner_r, side), directed(offset, side_r, side));
@@ -232,17 +218,6 @@ INLINE void use_block(const snow_ground *ground, bool hexagonal, const uint64_t 
     }
 }
 
-/* So many blocks can be used before a ring is full. */
-static uint32_t blocks_left(const snow_squad *squads, int count)
-{
-    uint32_t least = UINT32_MAX;
-    for (int i = 0; i < count; i++) {
-        uint32_t rows = squads[i].stop - squads[i].next;
-        least = rows < least ? rows : least;
-    }
-    return least / 2;
-}
-
 INLINE void walk(const snow_ground *ground, bool hexagonal, snow_squad *squads, int count)
 {
     uint64_t key[2 * SNOW_RANDOM_ROUNDS];
@@ -272,26 +247,15 @@ void SNOW_NAME(snow_squads_walk_, SNOW_KERNEL)(const snow_ground *ground, snow_s
         walk_together(ground, false, squads, count);
 }
 
-/* Eight rows of a column: which of them may have changed. */
-INLINE uint32_t find_changed(const snow_plane_map *map, const snow_squad *squad, int lane, lanes row, lanes counts,
-                             uint32_t since)
-{
-    lanes tile = _mm256_i32gather_epi32(squad->tiles->tile + lane, _mm256_slli_epi32(row, 3), 4);
-    lanes can_change = _mm256_andnot_si256(tile, counts); /* the sign tells */
-    lanes changed = _mm256_mask_i32gather_epi32(all(since), (const int *)map->changed, tile, can_change, 4);
-    lanes is_newer = _mm256_cmpgt_epi32(_mm256_sub_epi32(changed, all(since)), _mm256_setzero_si256());
-    return (uint32_t)_mm256_movemask_ps(_mm256_castsi256_ps(is_newer));
-}
-
 /* Which of them are answered as they were. */
 INLINE uint32_t find_lasting(const snow_ground *ground, const snow_squad *squad, int lane, lanes row)
 {
     enum { ROW_BITS = 5 };
     _Static_assert(sizeof(snow_row) == sizeof(int32_t) << ROW_BITS, "rows are found by shifts");
     lanes at = _mm256_slli_epi32(row, ROW_BITS);
-    question q = {.x = _mm256_i32gather_epi32(squad->rows->x + lane, at, 4),
-                  .y = _mm256_i32gather_epi32(squad->rows->y + lane, at, 4)};
-    lanes answer = _mm256_i32gather_epi32((const int *)squad->rows->answer + lane, at, 4);
+    question q = {.x = look_up(squad->rows->x + lane, at),
+                  .y = look_up(squad->rows->y + lane, at)};
+    lanes answer = look_up(squad->rows->answer + lane, at);
     look(&ground->plane, &q);
     return (uint32_t)_mm256_movemask_ps(_mm256_castsi256_ps(_mm256_cmpeq_epi32(q.seen, answer)));
 }
@@ -303,7 +267,7 @@ uint32_t SNOW_NAME(snow_squad_outdated_, SNOW_KERNEL)(const snow_ground *ground,
     for (uint32_t done = 0; done < end - first; done += SNOW_LANES) {
         lanes row = _mm256_and_si256(_mm256_add_epi32(all(first + done), eight), all(squad->room - 1));
         lanes counts = _mm256_cmpgt_epi32(all(end - first - done), eight);
-        uint32_t changed = find_changed(&ground->plane, squad, lane, row, counts, (uint32_t)since);
+        uint32_t changed = find_changed(ground->plane.changed, squad, lane, row, counts, (uint32_t)since);
         if (changed != 0)
             changed &= ~find_lasting(ground, squad, lane, row);
         if (changed != 0)

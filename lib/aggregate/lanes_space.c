@@ -21,18 +21,6 @@ typedef struct question {
     wide pick, exit;
 } question;
 
-/* Numbers of 32 bits. */
-INLINE lanes look_up(const void *array, lanes index)
-{
-    return _mm256_i32gather_epi32(array, index, 4);
-}
-
-/* The same where a lane's mask is set; 0 elsewhere. */
-INLINE lanes look_up_some(const void *array, lanes index, lanes mask)
-{
-    return _mm256_mask_i32gather_epi32(_mm256_setzero_si256(), array, index, mask, 4);
-}
-
 INLINE lanes is_below(lanes a, uint32_t end)
 {
     return _mm256_cmpeq_epi32(_mm256_min_epu32(a, all(end - 1)), a);
@@ -156,14 +144,6 @@ INLINE void find_exit(const snow_exits *exits, question *q, wide number)
     q->exit = fetch_from(exits->exit, plus(upper_to_lower(q->pick), widened(q->first)));
 }
 
-INLINE lanes outcome_of(const question *q)
-{
-    lanes place = lower_halves(q->pick);
-    lanes is_from = _mm256_cmpeq_epi32(_mm256_max_epu32(place, lower_halves(q->exit)), place);
-    lanes outcome = _mm256_srlv_epi32(lower_halves(upper_to_lower(q->exit)), _mm256_and_si256(is_from, all(16)));
-    return _mm256_and_si256(outcome, all(0xFFFF));
-}
-
 INLINE lanes is_axis(lanes side, uint32_t axis)
 {
     return _mm256_cmpeq_epi32(_mm256_srli_epi32(side, 1), all(axis));
@@ -172,7 +152,7 @@ INLINE lanes is_axis(lanes side, uint32_t axis)
 /* To one of the 48 images of an exit: as image_of_cube of flight.c has them. */
 INLINE void jump(question *q, wide number)
 {
-    lanes outcome = outcome_of(q);
+    lanes outcome = outcome_of(q->pick, q->exit);
     lanes symmetry = lower_halves(number);
     lanes side = lower_halves(upper_to_lower(product(number, every(6))));
     lanes swaps = _mm256_srai_epi32(_mm256_slli_epi32(symmetry, 29), 31);
@@ -259,17 +239,6 @@ INLINE void use_block(const snow_ground *ground, const uint64_t *key, snow_squad
     }
 }
 
-/* So many blocks can be used before a ring is full. */
-static uint32_t blocks_left(const snow_squad *squads, int count)
-{
-    uint32_t least = UINT32_MAX;
-    for (int i = 0; i < count; i++) {
-        uint32_t rows = squads[i].stop - squads[i].next;
-        least = rows < least ? rows : least;
-    }
-    return least / 2;
-}
-
 INLINE void walk(const snow_ground *ground, snow_squad *squads, int count)
 {
     uint64_t key[2 * SNOW_RANDOM_ROUNDS];
@@ -289,17 +258,6 @@ void SNOW_NAME(snow_squads_walk_space_, SNOW_KERNEL)(const snow_ground *ground, 
     case 3: walk(ground, squads, 3); break;
     default: walk(ground, squads, SNOW_SQUADS); break;
     }
-}
-
-/* Eight rows of a column: which of them may have changed. */
-INLINE uint32_t find_changed(const snow_space_map *map, const snow_squad *squad, int lane, lanes row, lanes counts,
-                             uint32_t since)
-{
-    lanes tile = look_up(squad->tiles->tile + lane, _mm256_slli_epi32(row, 3));
-    lanes can_change = _mm256_andnot_si256(tile, counts); /* the sign tells */
-    lanes changed = _mm256_mask_i32gather_epi32(all(since), (const int *)map->changed, tile, can_change, 4);
-    lanes is_newer = _mm256_cmpgt_epi32(_mm256_sub_epi32(changed, all(since)), _mm256_setzero_si256());
-    return (uint32_t)_mm256_movemask_ps(_mm256_castsi256_ps(is_newer));
 }
 
 /* Which of them are answered as they were. */
@@ -324,7 +282,7 @@ uint32_t SNOW_NAME(snow_squad_outdated_space_, SNOW_KERNEL)(const snow_ground *g
     for (uint32_t done = 0; done < end - first; done += SNOW_LANES) {
         lanes row = _mm256_and_si256(_mm256_add_epi32(all(first + done), eight), all(squad->room - 1));
         lanes counts = _mm256_cmpgt_epi32(all(end - first - done), eight);
-        uint32_t changed = find_changed(&ground->space, squad, lane, row, counts, (uint32_t)since);
+        uint32_t changed = find_changed(ground->space.changed, squad, lane, row, counts, (uint32_t)since);
         if (changed != 0)
             changed &= ~find_lasting(ground, squad, lane, row);
         if (changed != 0)

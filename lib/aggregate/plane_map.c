@@ -1,43 +1,17 @@
 #include "aggregate/plane_map.h"
 
 #include "base/floating.h"
-#include "base/hexagon.h"
 
 #include <string.h>
 
 enum {
     BLOCK = 4,
     TILE = 32,
-    SITE_REACH = 3, /* of what a filled site says about sites */
     PAGES_OF_A_SITE = 64, /* so many it may need */
     LINES_OF_A_SITE = 4,
     MOST_PAGES = 1 << 25, /* lanes look things up by 32 bits with a sign */
     MOST_LINES = 1 << 27
 };
-
-/* Of sites: the radius of the largest region round one that does not hold the other. */
-static int distance(snow_aggregate_lattice lattice, int x, int y)
-{
-    int by_column = snow_halo_gap(0, 1, x, 1);
-    int by_row = snow_halo_gap(0, 1, y, 1);
-    int by_sum = lattice == SNOW_AGGREGATE_HEXAGONAL ? snow_halo_gap(0, 1, x + y, 1) : 0;
-    int most = by_column > by_row ? by_column : by_row;
-    return most > by_sum ? most : by_sum;
-}
-
-static const int neighbour_x[6] = {1, -1, 0, 0, 1, -1};
-static const int neighbour_y[6] = {0, 0, 1, -1, -1, 1};
-
-/* Distance to the special sites that a filled site at 0 makes. */
-static int distance_to_contact(snow_aggregate_lattice lattice, int x, int y)
-{
-    int least = distance(lattice, x, y);
-    for (int k = 0; k < (lattice == SNOW_AGGREGATE_HEXAGONAL ? 6 : 4); k++) {
-        int other = distance(lattice, x - neighbour_x[k], y - neighbour_y[k]);
-        least = other < least ? other : least;
-    }
-    return least;
-}
 
 static int64_t at_least(int64_t x, int64_t least)
 {
@@ -47,27 +21,6 @@ static int64_t at_least(int64_t x, int64_t least)
 static int64_t at_most(int64_t x, int64_t most)
 {
     return x > most ? most : x;
-}
-
-/* A word holds 3 − distance for sixteen sites of a row. */
-static uint32_t print_of(snow_aggregate_lattice lattice, int place, int row, int word)
-{
-    uint32_t print = 0;
-    for (int site = 0; site < 16; site++) {
-        int d = distance_to_contact(lattice, site + 16 * word - place, row);
-        print |= (uint32_t)(d < 3 ? 3 - d : 0) << (2 * site);
-    }
-    return print;
-}
-
-/* The greater code of each site. */
-static uint64_t greater(uint64_t a, uint64_t b)
-{
-    const uint64_t lower_bits = UINT64_C(0x5555555555555555);
-    uint64_t upper_a = a >> 1 & lower_bits;
-    uint64_t upper_b = b >> 1 & lower_bits;
-    uint64_t lower = (a & (upper_a | ~upper_b)) | (b & (upper_b | ~upper_a));
-    return (upper_a | upper_b) << 1 | (lower & lower_bits);
 }
 
 static size_t tiles_of(snow_plane_box box)
@@ -113,22 +66,6 @@ static void uncover(const snow_plane_map *map, snow_heap *heap)
     snow_heap_put(heap, map->changed);
     snow_heap_put(heap, map->tile_class);
     snow_heap_put(heap, map->tile);
-}
-
-/* The first of the eight rows round row v that a print is for; it is even. */
-static int64_t first_of_print(int64_t v)
-{
-    return v - SITE_REACH - (v % 2 == 0 ? 1 : 0);
-}
-
-static void make_prints(snow_plane_map *map)
-{
-    for (int odd = 0; odd < 2; odd++)
-        for (int place = 0; place < 16; place++)
-            for (int word = 0; word < 3; word++)
-                for (int row = 0; row < SNOW_PLANE_PRINT; row++)
-                    map->print[odd][place][word].row[row] =
-                        print_of(map->lattice, place, row + (int)first_of_print(odd) - odd, word - 1);
 }
 
 /* Small steps waste little memory; each stops all walkers. */
@@ -227,7 +164,7 @@ snow_status snow_plane_map_start(snow_plane_map *map, snow_heap *heap, const sno
         take_page(map, (uint8_t)page);
     for (uint32_t line = 0; line < SNOW_PLANE_SHARED_LINES; line++)
         take_line(map);
-    make_prints(map);
+    snow_plane_prints_make(&map->prints, exits->lattice);
     return cover(map, heap, box);
 }
 
@@ -286,11 +223,8 @@ static uint32_t known_page(const snow_plane_map *map, uint32_t u, uint32_t v)
 /* The cell of 2 sites a side round a site. */
 static bool pair_holds_special(const snow_plane_map *map, uint32_t u, uint32_t v)
 {
-    const snow_plane_line *line = &map->line[snow_plane_map_line(map, known_page(map, u, v), u, v)];
-    uint32_t even = SNOW_MAP_GET(line->row[v % 16 / 2 * 2]);
-    uint32_t odd = SNOW_MAP_GET(line->row[v % 16 / 2 * 2 + 1]);
-    uint32_t special = (even & even >> 1) | (odd & odd >> 1);
-    return (special >> u % 16 / 2 * 4 & 5) != 0;
+    uint32_t line = snow_plane_map_line(map, known_page(map, u, v), u, v);
+    return snow_plane_line_holds_special(&map->line[line], u, v);
 }
 
 /* One of 4, 8, 16: kinds 1, 2, 3. */
@@ -507,33 +441,26 @@ snow_status snow_plane_map_widen(snow_plane_map *map, snow_heap *heap, snow_plan
 static void add_print(snow_plane_map *map, uint32_t u, uint32_t v, uint32_t pairs, const uint64_t *print)
 {
     size_t tile = tile_at(map, u / TILE, v / TILE);
-    _Atomic uint64_t *row = &map->line[line_of(map, tile, u, v)].two_rows[v % 16 / 2];
-    uint64_t changed = 0;
-    for (uint32_t i = 0; i < pairs; i++) {
-        uint64_t known = SNOW_MAP_GET(row[i]);
-        uint64_t now = greater(known, print[i]);
-        SNOW_MAP_PUT(row[i], now);
-        changed |= now ^ known;
-    }
+    bool lowered = snow_plane_line_lower(&map->line[line_of(map, tile, u, v)], v, pairs, print);
     /* Where matter is kept walkers are told of what is filled, too. */
-    if (changed != 0 || map->keeps_matter)
+    if (lowered || map->keeps_matter)
         stamp(map, tile);
 }
 
 /* What a site says about those up to three away. */
 static void add_prints(snow_plane_map *map, int64_t u, int64_t v)
 {
-    const snow_plane_print *print = map->print[v & 1][u & 15];
-    int64_t least = at_least(first_of_print(v), 0);
-    int64_t end = at_most(first_of_print(v) + SNOW_PLANE_PRINT, map->height);
-    for (int word = 0; word < 3; word++) {
-        int64_t column = u + 16 * (word - 1);
-        if (column < 0 || column >= (int64_t)map->width || (word == 0 && u % 16 >= 3) || (word == 2 && u % 16 < 13))
+    const snow_plane_print *print = map->prints.of[v & 1][u & 15];
+    int64_t least = at_least(snow_plane_print_first(v), 0);
+    int64_t end = at_most(snow_plane_print_first(v) + SNOW_PLANE_PRINT, map->height);
+    for (int line = 0; line < SNOW_PLANE_LINES; line++) {
+        int64_t column = u + 16 * (line - 1);
+        if (column < 0 || column >= (int64_t)map->width || !snow_plane_print_reaches((uint32_t)u, line))
             continue;
-        for (int64_t first = least; first < end; first = first - first % 16 + 16) {
-            int64_t last = at_most(first - first % 16 + 16, end);
-            add_print(map, (uint32_t)column, (uint32_t)first, (uint32_t)(last - first) / 2,
-                      &print[word].two_rows[(first - first_of_print(v)) / 2]);
+        for (int64_t row = least; row < end; row = row - row % 16 + 16) {
+            int64_t rows = at_most(row - row % 16 + 16, end) - row;
+            const uint64_t *rest = &print[line].two_rows[(row - snow_plane_print_first(v)) / 2];
+            add_print(map, (uint32_t)column, (uint32_t)row, (uint32_t)rows / 2, rest);
         }
     }
 }

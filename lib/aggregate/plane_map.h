@@ -11,6 +11,7 @@
    - for each block of 4 x 4 sites what the cells of plane_halo.h up to 8 sites wide
      say: a byte a block, in "pages" of 32 x 32 sites near which there is one;
    - for each tile, the place of a page, what larger cells say.
+   Pages and lines have numbers: a vector looks up eight at a time.
    Bytes hold classes: the least that cells say, 0 where a special site lies in the
    place. Where there is no page of a tile's own one stands that says the same
    everywhere, so that each question takes the same way: which branch it would
@@ -21,25 +22,12 @@
 
 #include "aggregate/matter.h"
 #include "aggregate/plane_halo.h"
+#include "aggregate/plane_line.h"
 
 /* Between special sites and those sides where the map may be widened: more than cells of blocks see. */
 enum { SNOW_PLANE_MARGIN = 96 };
 
-/* Three less the distance of each site, two bits each. */
-typedef union snow_plane_line {
-    _Alignas(64) _Atomic uint32_t row[16];
-    _Atomic uint64_t two_rows[8];
-} snow_plane_line;
-
-/* What a filled site does to as many words of a line, one below the other. */
-enum { SNOW_PLANE_PRINT = 8 };
-
-typedef union snow_plane_print {
-    uint32_t row[SNOW_PLANE_PRINT];
-    uint64_t two_rows[SNOW_PLANE_PRINT / 2];
-} snow_plane_print;
-
-/* The same sites where it matters which are filled and which are obstacles: a bit a site. */
+/* What is on the sites of a line, where that matters: a bit a site. */
 typedef struct snow_plane_matter {
     _Alignas(64) _Atomic uint16_t filled[16];
     _Atomic uint16_t obstacle[16];
@@ -80,7 +68,7 @@ typedef struct snow_plane_map {
     uint32_t lines, line_room;
     bool keeps_matter;
     snow_aggregate_lattice lattice;
-    snow_plane_print print[2][16][3]; /* of a site in an odd row or not, at this place of a word: left, here, right */
+    snow_plane_prints prints;
     snow_halos *halos;
     uint64_t landing; /* for pages that change now */
 } snow_plane_map;
@@ -133,7 +121,7 @@ static inline uint32_t snow_plane_map_look(const snow_plane_map *map, uint32_t p
     uint32_t v = (uint32_t)y;
     uint32_t near = SNOW_MAP_GET(map->page[page].near[v / 4 % 8 * 8 + u / 4 % 8]);
     uint32_t line = snow_plane_map_line(map, page, u, v);
-    uint32_t exact = ~SNOW_MAP_GET(map->line[line].row[v % 16]) >> (u % 16 * 2) & 3;
+    uint32_t exact = snow_plane_line_look(&map->line[line], u, v);
     return near > exact ? near : exact; /* neither is more than what is free */
 }
 

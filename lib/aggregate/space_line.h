@@ -61,8 +61,9 @@ static inline const snow_space_print *snow_space_print_of(const snow_space_print
     return &prints[(w & 1) << 4 | (v & 1) << 3 | (u & 7)];
 }
 
-/* The line learns of a filled site. It lies so many lines after the site's in a row (-1, 0 or 1), its first pair so many
-   rows and layers after the site's. True: it says something else now. */
+/* The line learns of a filled site. It lies so many lines after the site's in a row
+   (-1, 0 or 1), its first pair so many rows and layers after the site's. True: it
+   says something else now. */
 typedef bool (*snow_space_lower)(snow_space_line *line, const snow_space_print *print, int lines, int rows,
                                  int layers);
 

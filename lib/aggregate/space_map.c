@@ -445,7 +445,8 @@ snow_status snow_space_map_widen(snow_space_map *map, snow_heap *heap, snow_spac
 
 static bool is_covered(const snow_space_map *map, int32_t u, int32_t v, int32_t w)
 {
-    return (uint32_t)u / 16 < map->box.columns && (uint32_t)v / 16 < map->box.rows && (uint32_t)w / 16 < map->box.layers;
+    return (uint32_t)u / 16 < map->box.columns && (uint32_t)v / 16 < map->box.rows &&
+           (uint32_t)w / 16 < map->box.layers;
 }
 
 static void add_special(snow_space_map *map, int32_t u, int32_t v, int32_t w)

@@ -45,8 +45,8 @@ if [ -n "$SNOW_STATIC" ]; then
     grep -E ' (malloc|calloc|realloc|free|posix_memalign|aligned_alloc|strdup|mmap|qsort)$' "$tap_folder/wanted" |
         grep -v 'base_heap\.c\.o' >"$tap_folder/allocators" || :
     refuse 'only base/heap.c knows malloc()' test -s "$tap_folder/allocators"
-    # Data that can change would be shared by grids. The maps' "nothing" is an address that is never written to.
-    nm -A "$SNOW_STATIC" 2>/dev/null | grep -E ' [bBC] ' | grep -v '_nothing$' >"$tap_folder/writable" || :
+    # Data that can change would be shared by grids.
+    nm -A "$SNOW_STATIC" 2>/dev/null | grep -E ' [bBC] ' >"$tap_folder/writable" || :
     size -A "$SNOW_STATIC" | awk '$1 ~ /^\.(data|tdata|tbss)$/ && $2 > 0' >>"$tap_folder/writable"
     refuse 'the archive has no data that change' test -s "$tap_folder/writable"
 else
