@@ -107,6 +107,18 @@ bool fuzz_is_small(const snow_grid *grid)
            (int64_t)frozen.width * frozen.height <= MOST_CELLS;
 }
 
+bool fuzz_is_quick(const snow_grid *grid)
+{
+    enum { FAR = 256, OFTEN = 16 };
+    snow_aggregate_params params;
+    snow_aggregate_params_init(&params, sizeof params);
+    if (snow_aggregate_params_of(grid, &params) != SNOW_OK)
+        return true;
+    return params.launch_radius <= FAR && params.kill_radius <= 4 && params.width <= FAR && params.height <= FAR &&
+           params.depth <= FAR && params.sticking >= 1.0 / 64 && params.hits <= OFTEN &&
+           params.hardness_greatest <= OFTEN && params.interaction <= FAR;
+}
+
 static void query_fields(const snow_grid *grid)
 {
     static const snow_rect rects[] = {{-2, -1, 5, 4}, {INT32_MIN, INT32_MIN, 2, 1}, {INT32_MAX, INT32_MAX, 1, 1}};
@@ -223,8 +235,8 @@ void fuzz_save_and_load(snow_grid *grid, int64_t steps)
     REQUIRE(snow_load(bytes, size, &options, &copy) == SNOW_OK);
     free(bytes);
     REQUIRE(digest_of(grid) == digest_of(copy));
-    snow_status status = snow_step(grid, steps);
-    if (status == SNOW_OK && snow_step(copy, steps) == SNOW_OK && fuzz_is_small(grid))
+    if (fuzz_is_quick(grid) && snow_step(grid, steps) == SNOW_OK && snow_step(copy, steps) == SNOW_OK &&
+        fuzz_is_small(grid))
         REQUIRE(digest_of(grid) == digest_of(copy));
     snow_destroy(copy);
 }

@@ -48,6 +48,9 @@ snow_options fuzz_options(fuzz_input *input);
 /* Whether the whole of the grid can be read in little time. */
 bool fuzz_is_small(const snow_grid *grid);
 
+/* Whether a step takes little time: walkers may come from far, and stick seldom. */
+bool fuzz_is_quick(const snow_grid *grid);
+
 /* Asks the grid whatever every model can be asked; the answers must fit each other. */
 void fuzz_query(const snow_grid *grid);
 
