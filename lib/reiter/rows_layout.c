@@ -226,7 +226,7 @@ static size_t count_blocks(const snow_grid *grid, const rows *cells)
     enum { BLOCKS_PER_THREAD = 4, LEAST_CELLS = 4096 };
     size_t threads = (size_t)grid->options.threads;
     size_t blocks = threads > 1 ? threads * BLOCKS_PER_THREAD : 1;
-    size_t most = cells->part.cells / LEAST_CELLS + 1;
+    size_t most = (size_t)(cells->part.cells / LEAST_CELLS + 1);
     blocks = blocks < most ? blocks : most;
     return blocks < (size_t)cells->bands ? blocks : (size_t)cells->bands;
 }
