@@ -94,16 +94,21 @@ static const snow_plane_box large_plane = {-1536, -1536, 96, 96};
 static const snow_space_box small_space = {-128, -128, -128, 16, 16, 16};
 static const snow_space_box large_space = {-256, -256, -256, 32, 32, 32};
 
-static void start(world *self, snow_aggregate_lattice lattice)
+static void start_keeping(world *self, snow_aggregate_lattice lattice, bool matter)
 {
     self->lattice = lattice;
     self->heap = new_heap();
     assert_int_equal(SNOW_OK, snow_exits_start(&self->exits, &self->heap, lattice));
     if (lattice == SNOW_AGGREGATE_CUBIC)
-        assert_int_equal(SNOW_OK, snow_space_map_start(&self->space, &self->heap, &self->exits, false, small_space,
+        assert_int_equal(SNOW_OK, snow_space_map_start(&self->space, &self->heap, &self->exits, matter, small_space,
                                                      SNOW_ISA_BASELINE));
     else
-        assert_int_equal(SNOW_OK, snow_plane_map_start(&self->plane, &self->heap, &self->exits, false, small_plane));
+        assert_int_equal(SNOW_OK, snow_plane_map_start(&self->plane, &self->heap, &self->exits, matter, small_plane));
+}
+
+static void start(world *self, snow_aggregate_lattice lattice)
+{
+    start_keeping(self, lattice, false);
 }
 
 static void widen(world *self)
@@ -237,6 +242,34 @@ static void regions_are_free(void **state)
     regions_of_a_lattice_are_free(SNOW_AGGREGATE_CUBIC);
 }
 
+/* Round a corner of tiles, where soon no class changes any more. */
+static void what_is_around_changes_for(snow_aggregate_lattice lattice)
+{
+    enum { SIDE = 6, SITES = SIDE * SIDE, STEP = 17 /* shares no divisor with them */ };
+    static const snow_site around[4] = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}};
+    world self;
+    start_keeping(&self, lattice, true);
+    for (int count = 1; count <= SITES; count++) {
+        int place = count * STEP % SITES;
+        snow_site site = {place % SIDE - SIDE / 2, place / SIDE - SIDE / 2, 0};
+        add(&self, site, (uint64_t)count);
+        for (int k = 0; k < 4; k++) {
+            snow_site beside = {site.x + around[k].x, site.y + around[k].y, 0};
+            assert_true(has_changed(&self, beside, (uint64_t)count - 1));
+        }
+    }
+    end(&self);
+}
+
+/* Walkers that may go on from special sites are told what is filled round them. */
+static void what_is_around_changes(void **state)
+{
+    (void)state;
+    what_is_around_changes_for(SNOW_AGGREGATE_SQUARE);
+    what_is_around_changes_for(SNOW_AGGREGATE_HEXAGONAL);
+    what_is_around_changes_for(SNOW_AGGREGATE_CUBIC);
+}
+
 static void neither_order_nor_widening_shows_for(snow_aggregate_lattice lattice)
 {
     world one;
@@ -302,6 +335,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(regions_are_free),
+        cmocka_unit_test(what_is_around_changes),
         cmocka_unit_test(far_regions_are_free),
         cmocka_unit_test(neither_order_nor_widening_shows),
     };

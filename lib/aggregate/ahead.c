@@ -8,20 +8,20 @@
 /* How often a thread that has to wait looks before it yields its processor. */
 enum { LOOKS_BEFORE_YIELD = 200 };
 
-/* So many rows of diaries; a walker that asks more waits for its turn to land. */
-enum { PLANE_ROWS = 256, SPACE_ROWS = 512 };
-
 /* Walkers of a thread: so many are on their way, in squads, and so many more may have landed and wait for those
-   before them. */
+   before them. A squad has so many rows for diaries; a walker that asks more waits for its turn to land. */
 typedef struct formation {
     int squads, abreast, waiting;
+    uint32_t rows;
 } formation;
 
-static const formation in_turn = {1, 6, 6};
-static const formation small = {2, SNOW_LANES, 16};
-static const formation medium = {2, SNOW_LANES, 32};
-static const formation large = {3, SNOW_LANES, 48};
-static const formation largest = {SNOW_SQUADS, SNOW_LANES, 64};
+enum { ROWS = 256, ROWS_IN_TURN = 64 /* they stay next to the processor */ };
+
+static const formation in_turn = {1, 6, 6, ROWS_IN_TURN};
+static const formation small = {2, SNOW_LANES, 16, ROWS};
+static const formation medium = {2, SNOW_LANES, 32, ROWS};
+static const formation large = {3, SNOW_LANES, 48, ROWS};
+static const formation largest = {SNOW_SQUADS, SNOW_LANES, 64, ROWS};
 
 /* The larger the cluster the longer each waits for memory, and the less they walk in vain. */
 static const formation *formation_for(const snow_ground *ground)
@@ -54,7 +54,7 @@ snow_status snow_ahead_start(snow_ahead *ahead, snow_heap *heap, int threads, bo
     if (ahead->most_squads >= most->squads)
         return SNOW_OK;
     snow_ahead_end(ahead, heap);
-    uint32_t room = space ? SPACE_ROWS : PLANE_ROWS;
+    uint32_t room = most->rows;
     size_t rings = (size_t)threads * (size_t)most->squads;
     ahead->threads = threads;
     ahead->voyages = window_of(most, threads);
