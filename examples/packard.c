@@ -154,13 +154,10 @@ static int grow(const crystal *self, snow_grid *grid, output *picture_file, outp
 static int grow_into_files(const crystal *self, snow_grid *grid)
 {
     output picture_file, pattern_file;
-    int exit_code = EXIT_FAILED;
-    if (!output_open(&picture_file, self->out))
+    if (!output_open_both(&picture_file, self->out, &pattern_file, self->rle))
         return EXIT_FAILED;
-    if (output_open(&pattern_file, self->rle)) {
-        exit_code = grow(self, grid, &picture_file, &pattern_file);
-        output_discard(&pattern_file);
-    }
+    int exit_code = grow(self, grid, &picture_file, &pattern_file);
+    output_discard(&pattern_file);
     output_discard(&picture_file);
     return exit_code;
 }

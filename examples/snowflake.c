@@ -41,13 +41,10 @@ static int grow_into_files(snow_grid *grid, const scene *it, const look *appeara
 {
     output picture_file;
     output save_file;
-    int exit_code = EXIT_FAILED;
-    if (!output_open(&picture_file, names->out))
+    if (!output_open_both(&picture_file, names->out, &save_file, names->save))
         return EXIT_FAILED;
-    if (output_open(&save_file, names->save)) {
-        exit_code = grow(grid, it, appearance, &picture_file, &save_file);
-        output_discard(&save_file);
-    }
+    int exit_code = grow(grid, it, appearance, &picture_file, &save_file);
+    output_discard(&save_file);
     output_discard(&picture_file);
     return exit_code;
 }

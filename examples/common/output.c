@@ -74,6 +74,16 @@ bool output_open(output *self, const char *name)
     return self->file ? true : fail(self);
 }
 
+bool output_open_both(output *first, const char *first_name, output *second, const char *second_name)
+{
+    if (!output_open(first, first_name))
+        return false;
+    if (output_open(second, second_name))
+        return true;
+    output_discard(first);
+    return false;
+}
+
 bool output_commit(output *self)
 {
     if (self->file == NULL)

@@ -19,6 +19,9 @@ typedef struct output {
 bool output_open(output *self, const char *name);
 bool output_commit(output *self);
 
+/* Both files, or none. */
+bool output_open_both(output *first, const char *first_name, output *second, const char *second_name);
+
 /* Gives up: nothing is left. Fine for an output that was committed or never opened. */
 void output_discard(output *self);
 
