@@ -58,7 +58,7 @@ snow_status snow_ahead_start(snow_ahead *ahead, snow_heap *heap, int threads, bo
     size_t rings = (size_t)threads * (size_t)most->squads;
     ahead->threads = threads;
     ahead->voyages = window_of(most, threads);
-    ahead->voyage = snow_heap_get(heap, ahead->voyages, sizeof *ahead->voyage);
+    ahead->voyage = snow_heap_get(heap, (size_t)ahead->voyages, sizeof *ahead->voyage);
     ahead->party = snow_heap_get(heap, (size_t)threads, sizeof *ahead->party);
     ahead->rows = snow_heap_get(heap, rings * room, sizeof *ahead->rows);
     ahead->tiles = snow_heap_get(heap, rings * room, sizeof *ahead->tiles);
