@@ -339,7 +339,7 @@ int main(int argc, char **argv)
     program command = {"aggregate",
                        "Grows a cluster by diffusion-limited aggregation, or wears a shore, and prints how that\n"
                        "ended, in one line. Ctrl-C ends it early; files and line are then those of what there is.",
-                       "aggregate --particles 1000000 --threads 0 --size 2000 --out cluster.png", rows};
+                       "aggregate --particles 1000000 --size 2000 --out cluster.png", rows};
     snow_grid *grid = NULL;
     int exit_code;
 

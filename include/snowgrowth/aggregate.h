@@ -206,7 +206,8 @@ SNOW_API const char *snow_aggregate_preset_source(size_t index);
  * particles (the vessel, up to their height). Shores take 2 bytes a cell; off
  * the lattice about 60 bytes a particle; the cluster–cluster scene 160 bytes a
  * particle and 5 for each site of its box. Stepping asks for memory as the
- * cluster grows.
+ * cluster grows; beyond some 10^9 particles by jumps it ends with
+ * ::SNOW_ERROR_TOO_LARGE.
  *
  * @param params the scene.
  * @param options memory, threads, instruction set; NULL: the defaults.
