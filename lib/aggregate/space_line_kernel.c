@@ -69,10 +69,10 @@ bool NAME(snow_space_line_lower_, SNOW_KERNEL)(snow_space_line *line, const snow
 {
     int first = greater(0, -PAIRS / 2 - layers);
     int end = lesser(4, PAIRS / 2 + 1 - layers);
-    const int16_t(*across)[ROWS][4] = &print->pair[lines + 1][PAIRS / 2 + layers];
+    const int16_t(*across)[ROWS][4] = print->pair[lines + 1];
     pairs any = {0};
     for (int layer = first; layer < end; layer++) {
-        const int16_t *from = across[layer][rows + ROWS / 2];
+        const int16_t *from = across[PAIRS / 2 + layers + layer][rows + ROWS / 2];
         _Atomic uintptr_t *word = &line->word[layer * TIMES * WORDS];
         for (int i = 0; i < TIMES; i++, word += WORDS, from += BYTES / 2) {
             pairs known = get(word);
